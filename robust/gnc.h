@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Graduated non-convexity: a robust fit as a sequence of weighted ones.
+//
+// The loop knows neither what is estimated nor how. A Subproblem brings both:
+//
+//   struct Subproblem {
+//     using Estimate = ...;
+//     Eigen::Index NumMeasurements() const;
+//     // Weighted least squares; nullopt if the weights leave it undetermined.
+//     std::optional<Estimate> Solve(const WeightsRef& weights) const;
+//     // ||residual_i||^2 over the squared noise bound: inlier iff <= 1.
+//     Eigen::VectorXd SquaredResiduals(const Estimate& estimate) const;
+//   };
+//
+// and a Surrogate (robust/surrogate.h) brings the loss and its schedule.
+
+#ifndef QUATRO_ROBUST_GNC_H_
+#define QUATRO_ROBUST_GNC_H_
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/types.h"
+
+namespace quatro {
+
+struct GncOptions {
+  int max_num_iterations = 100;
+
+  // mu changes by this factor per iteration. Larger is faster and greedier.
+  double mu_step = 1.4;
+
+  // Stop once every weight is this close to 0 or 1.
+  double binary_weight_tolerance = 1e-6;
+
+  // Stop once |change in weighted cost| <= this * cost.
+  double relative_cost_tolerance = 1e-9;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+enum class GncTermination {
+  kInvalidOptions,    // Nothing was tried; see message.
+  kUndetermined,      // Some weights left the subproblem without an answer.
+  kAllInliers,        // The plain fit already met the noise bound.
+  kConverged,         // Weights binary, cost settled, or loss exact.
+  kMaxNumIterations,  // Usable, but mu was still moving.
+};
+
+struct GncIteration {
+  double mu = 0.0;
+  double cost = 0.0;  // sum_i w_i r2_i.
+  double sum_of_weights = 0.0;
+};
+
+template <typename Estimate>
+struct GncSummary {
+  GncTermination termination = GncTermination::kUndetermined;
+  std::string message;
+  std::optional<Estimate> estimate;  // Set iff IsUsable().
+  Weights weights;                   // Those the estimate was solved with.
+  std::vector<GncIteration> iterations;
+
+  bool IsUsable() const { return estimate.has_value(); }
+};
+
+template <typename Surrogate, typename Subproblem>
+GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
+                                                   const GncOptions& options) {
+  GncSummary<typename Subproblem::Estimate> summary;
+  if (!options.IsValid(&summary.message)) {
+    summary.termination = GncTermination::kInvalidOptions;
+    return summary;
+  }
+
+  // The non-robust fit sets how convex the first surrogate must be.
+  summary.weights.setOnes(subproblem.NumMeasurements());
+  summary.estimate = subproblem.Solve(summary.weights);
+  if (!summary.IsUsable()) return summary;
+
+  Eigen::VectorXd r2 = subproblem.SquaredResiduals(*summary.estimate);
+  if (r2.maxCoeff() <= 1.0) {
+    summary.termination = GncTermination::kAllInliers;
+    return summary;
+  }
+
+  summary.termination = GncTermination::kMaxNumIterations;
+  double mu = Surrogate::InitialMu(r2.maxCoeff());
+  double previous_cost = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < options.max_num_iterations; ++i) {
+    // Weights for a fixed estimate, then the estimate for fixed weights.
+    summary.weights =
+        r2.unaryExpr([mu](double r2_i) { return Surrogate::Weight(r2_i, mu); });
+    summary.estimate = subproblem.Solve(summary.weights);
+    if (!summary.IsUsable()) {
+      summary.termination = GncTermination::kUndetermined;
+      return summary;
+    }
+    r2 = subproblem.SquaredResiduals(*summary.estimate);
+
+    const double cost = summary.weights.dot(r2);
+    summary.iterations.push_back({mu, cost, summary.weights.sum()});
+
+    const double gap_to_binary =
+        summary.weights.array().min(1.0 - summary.weights.array()).maxCoeff();
+    const double cost_change = std::abs(previous_cost - cost);
+    if (Surrogate::IsExact(mu) ||
+        gap_to_binary <= options.binary_weight_tolerance ||
+        cost_change <= options.relative_cost_tolerance * cost) {
+      summary.termination = GncTermination::kConverged;
+      return summary;
+    }
+    previous_cost = cost;
+    mu = Surrogate::NextMu(mu, options.mu_step);
+  }
+  return summary;
+}
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_GNC_H_

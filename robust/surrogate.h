@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The two losses GNC anneals towards, as stateless types.
+//
+// Residuals arrive divided by the noise bound, so an inlier has r2 <= 1 and no
+// loss carries a threshold of its own. Equation numbers are those of Yang,
+// Antonante, Tzoumas and Carlone, "Graduated Non-Convexity for Robust Spatial
+// Perception", RA-L 2020.
+
+#ifndef QUATRO_ROBUST_SURROGATE_H_
+#define QUATRO_ROBUST_SURROGATE_H_
+
+#include <algorithm>
+#include <cmath>
+
+namespace quatro {
+
+// Truncated least squares, min(r2, 1). Convex as mu -> 0, exact as mu -> inf.
+struct TruncatedLeastSquares {
+  // Remark 5. Needs max_r2 > 1/2.
+  static double InitialMu(double max_r2) { return 1.0 / (2.0 * max_r2 - 1.0); }
+  static double NextMu(double mu, double step) { return mu * step; }
+  static bool IsExact(double) { return false; }
+
+  // Equation (14).
+  static double Weight(double r2, double mu) {
+    if (r2 >= (mu + 1.0) / mu) return 0.0;
+    if (r2 <= mu / (mu + 1.0)) return 1.0;
+    return std::sqrt(mu * (mu + 1.0) / r2) - mu;
+  }
+};
+
+// Geman-McClure, r2 / (1 + r2). Convex as mu -> inf, exact at mu = 1.
+struct GemanMcClure {
+  static double InitialMu(double max_r2) { return std::max(1.0, 2.0 * max_r2); }
+  static double NextMu(double mu, double step) {
+    return std::max(1.0, mu / step);
+  }
+  static bool IsExact(double mu) { return mu <= 1.0; }
+
+  // Equation (12).
+  static double Weight(double r2, double mu) {
+    const double w = mu / (r2 + mu);
+    return w * w;
+  }
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_SURROGATE_H_

@@ -1,0 +1,17 @@
+# Every library that quatro is built with. third_party/install.sh installs them;
+# third_party/README.md lists versions and licences.
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Ceres 2.1 REQUIRED)
+find_package(glog REQUIRED)
+find_package(nanoflann REQUIRED)
+find_package(liblzf REQUIRED)
+
+if(QUATRO_BUILD_EXPERIMENTS OR QUATRO_BUILD_TESTS)
+  find_package(gflags REQUIRED)
+  find_package(nlohmann_json 3 REQUIRED)
+  find_package(embree 3 REQUIRED)
+endif()
+if(QUATRO_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+endif()

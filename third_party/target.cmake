@@ -1,0 +1,24 @@
+# What every target of ours has in common.
+#   quatro_target(<name>)
+function(quatro_target name)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  # Contraction would make a result depend on which SIMD path was taken.
+  target_compile_options(${name} PRIVATE
+      -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off)
+  if(QUATRO_SANITIZE)
+    target_compile_options(${name} PRIVATE
+        -fsanitize=${QUATRO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${name} PUBLIC -fsanitize=${QUATRO_SANITIZE})
+  endif()
+endfunction()
+
+# One folder, one library; sources as <name>.cc, linked as quatro::<folder>.
+#   quatro_library(<folder> SOURCES a.cc b.cc LINKS PUBLIC x PRIVATE y)
+function(quatro_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(quatro_${folder} ${ARG_SOURCES})
+  add_library(quatro::${folder} ALIAS quatro_${folder})
+  target_include_directories(quatro_${folder} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>")
+  target_link_libraries(quatro_${folder} ${ARG_LINKS})
+  quatro_target(quatro_${folder})
+endfunction()
