@@ -11,6 +11,8 @@
 //     std::optional<Estimate> Solve(const WeightsRef& weights) const;
 //     // ||residual_i||^2 over the squared noise bound: inlier iff <= 1.
 //     Eigen::VectorXd SquaredResiduals(const Estimate& estimate) const;
+//     // The estimate before any data; only kIdentity below asks for it.
+//     Estimate Identity() const;
 //   };
 //
 // and a Surrogate (robust/surrogate.h) brings the loss and its schedule.
@@ -25,11 +27,14 @@
 #include <vector>
 
 #include "features/types.h"
+#include "robust/surrogate.h"
 
 namespace quatro {
 
 struct GncOptions {
   int max_num_iterations = 100;
+
+  GncStart start = GncStart::kPlainFit;
 
   // mu changes by this factor per iteration. Larger is faster and greedier.
   double mu_step = 1.4;
@@ -47,7 +52,7 @@ struct GncOptions {
 enum class GncTermination {
   kInvalidOptions,    // Nothing was tried; see message.
   kUndetermined,      // Some weights left the subproblem without an answer.
-  kAllInliers,        // The plain fit already met the noise bound.
+  kAllInliers,        // No residual to start from is above the noise bound.
   kConverged,         // Weights binary, cost settled, or loss exact.
   kMaxNumIterations,  // Usable, but mu was still moving.
 };
@@ -62,8 +67,9 @@ template <typename Estimate>
 struct GncSummary {
   GncTermination termination = GncTermination::kUndetermined;
   std::string message;
-  std::optional<Estimate> estimate;  // Set iff IsUsable().
-  Weights weights;                   // Those the estimate was solved with.
+  std::optional<Estimate> estimate;   // Set iff IsUsable().
+  Weights weights;                    // Those the estimate was solved with.
+  Eigen::VectorXd squared_residuals;  // Of the estimate; inlier iff <= 1.
   std::vector<GncIteration> iterations;
 
   bool IsUsable() const { return estimate.has_value(); }
@@ -78,19 +84,26 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
     return summary;
   }
 
-  // The non-robust fit sets how convex the first surrogate must be.
   summary.weights.setOnes(subproblem.NumMeasurements());
   summary.estimate = subproblem.Solve(summary.weights);
-  if (!summary.IsUsable()) return summary;
+  if (!summary.IsUsable()) {
+    summary.message = "the measurements do not determine an estimate";
+    return summary;
+  }
+  Eigen::VectorXd& r2 = summary.squared_residuals;
+  r2 = subproblem.SquaredResiduals(*summary.estimate);
 
-  Eigen::VectorXd r2 = subproblem.SquaredResiduals(*summary.estimate);
-  if (r2.maxCoeff() <= 1.0) {
+  const double max_r2 =
+      options.start == GncStart::kPlainFit
+          ? r2.maxCoeff()
+          : subproblem.SquaredResiduals(subproblem.Identity()).maxCoeff();
+  if (max_r2 <= 1.0) {
     summary.termination = GncTermination::kAllInliers;
     return summary;
   }
 
   summary.termination = GncTermination::kMaxNumIterations;
-  double mu = Surrogate::InitialMu(r2.maxCoeff());
+  double mu = Surrogate::InitialMu(max_r2, options.start);
   double previous_cost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < options.max_num_iterations; ++i) {
     // Weights for a fixed estimate, then the estimate for fixed weights.
@@ -99,6 +112,7 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
     summary.estimate = subproblem.Solve(summary.weights);
     if (!summary.IsUsable()) {
       summary.termination = GncTermination::kUndetermined;
+      summary.message = "all weight was taken away";
       return summary;
     }
     r2 = subproblem.SquaredResiduals(*summary.estimate);

@@ -15,10 +15,19 @@
 
 namespace quatro {
 
+// Which residuals say how convex the first surrogate must be.
+enum class GncStart {
+  kPlainFit,  // Those of the plain fit, as in the GNC paper.
+  kIdentity,  // Those before any fit, as in the Quatro paper.
+};
+
 // Truncated least squares, min(r2, 1). Convex as mu -> 0, exact as mu -> inf.
 struct TruncatedLeastSquares {
-  // Remark 5. Needs max_r2 > 1/2.
-  static double InitialMu(double max_r2) { return 1.0 / (2.0 * max_r2 - 1.0); }
+  // Remark 5, and Section III.C of the Quatro paper. Needs max_r2 > 1.
+  static double InitialMu(double max_r2, GncStart start) {
+    const double factor = start == GncStart::kPlainFit ? 2.0 : 1.0;
+    return 1.0 / (factor * max_r2 - 1.0);
+  }
   static double NextMu(double mu, double step) { return mu * step; }
   static bool IsExact(double) { return false; }
 
@@ -32,7 +41,9 @@ struct TruncatedLeastSquares {
 
 // Geman-McClure, r2 / (1 + r2). Convex as mu -> inf, exact at mu = 1.
 struct GemanMcClure {
-  static double InitialMu(double max_r2) { return std::max(1.0, 2.0 * max_r2); }
+  static double InitialMu(double max_r2, GncStart) {
+    return std::max(1.0, 2.0 * max_r2);
+  }
   static double NextMu(double mu, double step) {
     return std::max(1.0, mu / step);
   }

@@ -18,8 +18,9 @@
 namespace quatro {
 
 struct Rigid3 {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // Orthonormal, det 1.
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   // [m]
+  Eigen::Matrix3d rotation =
+      Eigen::Matrix3d::Identity();                        // Orthonormal, det 1.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // [m]
 
   Eigen::Matrix4d ToMatrix() const {
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();

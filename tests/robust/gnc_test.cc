@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "robust/surrogate.h"
 #include "solvers/yaw.h"
@@ -47,8 +47,10 @@ TYPED_TEST(GncTest, FindsTheYawUnderSeventyPercentOutliers) {
   p.noise_bound = 0.3;
   const int N = 200, outliers = 140;
   p.source = Points::NullaryExpr(3, N, [&] { return 10.0 * n(rng); });
-  p.target = Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()).toRotationMatrix() * p.source +
-             Points::NullaryExpr(3, N, [&] { return 0.05 * n(rng); });
+  p.target =
+      Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+          p.source +
+      Points::NullaryExpr(3, N, [&] { return 0.05 * n(rng); });
   p.target.leftCols(outliers) =
       Points::NullaryExpr(3, outliers, [&] { return 10.0 * n(rng); });
   const auto summary = SolveGnc<TypeParam>(p, GncOptions{});
@@ -69,8 +71,10 @@ TYPED_TEST(GncTest, LeavesCleanDataToThePlainFit) {
 }
 
 TYPED_TEST(GncTest, RefusesInvalidOptionsAndSaysWhich) {
-  GncOptions o; o.mu_step = 1.0;
-  const auto s = SolveGnc<TypeParam>(YawSubproblem{Points(3,0), Points(3,0), 1}, o);
+  GncOptions o;
+  o.mu_step = 1.0;
+  const auto s =
+      SolveGnc<TypeParam>(YawSubproblem{Points(3, 0), Points(3, 0), 1}, o);
   EXPECT_EQ(s.termination, GncTermination::kInvalidOptions);
   EXPECT_THAT(s.message, ::testing::HasSubstr("mu_step"));
 }

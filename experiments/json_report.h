@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The answer as JSON, for programs. The same for any number of threads, but for
+// `timings_ms`.
+
+#ifndef QUATRO_EXPERIMENTS_JSON_REPORT_H_
+#define QUATRO_EXPERIMENTS_JSON_REPORT_H_
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "features/stopwatch.h"
+#include "robust/quatro.h"
+#include "robust/registration.h"
+#include "robust/verdict.h"
+
+namespace quatro {
+
+using Json = nlohmann::ordered_json;
+
+// What both programs report: status, reason, target_from_source (4 rows of 4,
+// or null), yaw_deg, counts, covariance, certificate, timings_ms, method.
+Json MakeReport(const std::string& method,
+                const Verdict& verdict,
+                const QuatroSummary& quatro,
+                const std::vector<StageTime>& stage_times,
+                double total_seconds);
+
+// The parameters as given and used.
+Json DescribeOptions(const QuatroOptions& options);
+Json DescribeOptions(const FrontEndOptions& options);
+
+// The library's version.
+std::string Version();
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_JSON_REPORT_H_

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/outputs.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "features/file.h"
+
+namespace quatro {
+
+namespace fs = std::filesystem;
+
+bool CanWrite(const std::string& path, std::string* error) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    *error = path + ": is a directory, must be a file to write";
+    return false;
+  }
+  const fs::path parent = fs::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (!fs::is_directory(folder, ignored)) {
+    *error = path + ": there is no folder " + folder;
+    return false;
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    *error = path + ": may not write into folder " + folder;
+    return false;
+  }
+  return true;
+}
+
+bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& [path, bytes] = files[i];
+    bool is_written = false;
+    if (path.empty()) {
+      is_written =
+          std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
+          std::fflush(stdout) == 0;
+      if (!is_written) *error = "standard output: could not be written";
+    } else {
+      is_written = WriteFileAtomically(path, bytes, error);
+    }
+    if (is_written) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code ignored;
+      if (!files[j].path.empty()) fs::remove(files[j].path, ignored);
+    }
+    return false;
+  }
+  return true;
+}
+
+}  // namespace quatro

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What a program leaves behind.
+
+#ifndef QUATRO_EXPERIMENTS_OUTPUTS_H_
+#define QUATRO_EXPERIMENTS_OUTPUTS_H_
+
+#include <string>
+#include <vector>
+
+namespace quatro {
+
+struct OutputFile {
+  std::string path;  // Empty: standard output.
+  std::string bytes;
+};
+
+// Whether a file could be written here, as far as that can be told beforehand.
+bool CanWrite(const std::string& path, std::string* error);
+
+// Writes them in order, each whole or not at all. At the first that can't be
+// written removes those before it and returns false.
+bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_OUTPUTS_H_

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What every program does before its own work, and how it ends.
+
+#ifndef QUATRO_EXPERIMENTS_PROGRAM_H_
+#define QUATRO_EXPERIMENTS_PROGRAM_H_
+
+#include <optional>
+#include <string>
+
+namespace quatro {
+
+enum ExitCode {
+  kExitDone = 0,  // Of the registering programs: registered.
+  kExitNotVouchedFor =
+      1,              // There may be an answer; the JSON says what is wrong.
+  kExitBadInput = 2,  // Flags or files; one line on stderr says which.
+};
+
+// Parses the flags. Returns the exit code if the program is to end here: after
+// --help, or for a flag or argument that is not known. `main_file` is the name
+// of the program's source without its ending: --help shows its flags alone.
+std::optional<int> ParseFlags(const std::string& usage,
+                              const std::string& main_file,
+                              int argc,
+                              char** argv);
+
+// Prints "<program>: <error>" on stderr and returns kExitBadInput.
+int Fail(const std::string& error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_PROGRAM_H_

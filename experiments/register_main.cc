@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gflags/gflags.h>
+
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "experiments/json_report.h"
+#include "experiments/matches_csv.h"
+#include "experiments/outputs.h"
+#include "experiments/picture.h"
+#include "experiments/program.h"
+#include "features/cloud_io.h"
+#include "robust/presets.h"
+#include "robust/registration.h"
+
+DEFINE_string(source, "", "The cloud to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(target, "", "The cloud to move it onto");
+DEFINE_string(
+    preset,
+    "kitti",
+    "kitti (64 beams outdoors), kitti_paper (the paper's parameters), "
+    "indoor (16 beams), or auto (from the clouds themselves)");
+DEFINE_string(method, "quatro", "How to solve: quatro");
+DEFINE_double(voxel_size, 0.0, "Of the sampling [m]; 0: the preset's");
+DEFINE_double(normal_radius, 0.0, "Of the normals [m]; 0: the preset's");
+DEFINE_double(fpfh_radius, 0.0, "Of the descriptors [m]; 0: the preset's");
+DEFINE_double(noise_bound,
+              0.0,
+              "How far a right match may be off [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Of all that is drawn at random");
+DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+DEFINE_string(json, "", "File for the answer; empty: standard output");
+DEFINE_string(picture, "", "PNG file for both clouds before and after");
+DEFINE_string(correspondences_out,
+              "",
+              "CSV file for the matches, as quatro_solve reads them");
+
+namespace {
+
+constexpr char kUsage[] =
+    "finds the pose between two scans of one place, far apart or not.\n"
+    "\n"
+    "  quatro_register --source=a.bin --target=b.bin --picture=ab.png\n"
+    "\n"
+    "The answer is JSON; target_from_source moves points of the source onto "
+    "the\n"
+    "target. Progress goes to standard error.\n"
+    "Exits with 0 if registered; 1 if an answer can't be vouched for (the "
+    "JSON\n"
+    "says why); 2 if a flag or a file is wrong (nothing is written then).";
+
+// The options that the flags ask for, but for those that --preset=auto takes
+// from the clouds.
+std::optional<quatro::RegistrationOptions> OptionsFromFlags(
+    const quatro::PointCloud& source,
+    const quatro::PointCloud& target,
+    std::string* error) {
+  auto options = FLAGS_preset == "auto"
+                     ? quatro::MakeAutoOptions(source, target)
+                     : quatro::MakePreset(FLAGS_preset);
+  if (!options) {
+    *error = "--preset=" + FLAGS_preset + ", must be auto";
+    for (const std::string& name : quatro::PresetNames()) *error += ", " + name;
+    return std::nullopt;
+  }
+  if (FLAGS_method != "quatro") {
+    *error = "--method=" + FLAGS_method + ", must be quatro";
+    return std::nullopt;
+  }
+  const auto override_with = [](double flag, double* value) {
+    if (flag != 0.0) *value = flag;
+  };
+  override_with(FLAGS_voxel_size, &options->front_end.voxel_size);
+  override_with(FLAGS_normal_radius, &options->front_end.normal_radius);
+  override_with(FLAGS_fpfh_radius, &options->front_end.fpfh_radius);
+  override_with(FLAGS_noise_bound, &options->quatro.noise_bound);
+  options->seed = FLAGS_seed;
+  options->num_threads = FLAGS_threads;
+  if (!options->IsValid(error)) return std::nullopt;
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using quatro::Fail;
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, "register_main", argc, argv)) {
+    return *exit_code;
+  }
+  std::string error;
+  if (FLAGS_source.empty()) return Fail("--source is empty, must name a cloud");
+  if (FLAGS_target.empty()) return Fail("--target is empty, must name a cloud");
+  // What can be found wrong at once is found before the work is done.
+  for (const std::string& path :
+       {FLAGS_json, FLAGS_picture, FLAGS_correspondences_out}) {
+    if (!path.empty() && !quatro::CanWrite(path, &error)) return Fail(error);
+  }
+  if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
+    return Fail(error);
+  }
+  if (!OptionsFromFlags({}, {}, &error)) return Fail(error);
+
+  const auto source = quatro::ReadCloud(FLAGS_source, &error);
+  if (!source) return Fail(error);
+  const auto target = quatro::ReadCloud(FLAGS_target, &error);
+  if (!target) return Fail(error);
+  auto options = OptionsFromFlags(*source, *target, &error);
+  if (!options) return Fail(error);
+  options->progress = [](const quatro::StageTime& time) {
+    std::fprintf(
+        stderr, "%-12s %9.1f ms\n", time.stage.c_str(), time.seconds * 1e3);
+  };
+
+  const quatro::RegistrationSummary summary =
+      quatro::Register(*source, *target, *options);
+  if (!summary.error.empty()) return Fail(summary.error);
+
+  quatro::Json report = quatro::MakeReport(FLAGS_method,
+                                           summary.verdict,
+                                           summary.quatro,
+                                           summary.stage_times,
+                                           summary.total_seconds);
+  report["counts"].update(
+      quatro::Json{{"source_points", source->points.cols()},
+                   {"source_dropped", source->num_dropped},
+                   {"source_voxels", summary.num_source_voxels},
+                   {"target_points", target->points.cols()},
+                   {"target_dropped", target->num_dropped},
+                   {"target_voxels", summary.num_target_voxels},
+                   {"mutual_matches", summary.num_mutual_matches}});
+  report["parameters"] = {{"source", FLAGS_source},
+                          {"target", FLAGS_target},
+                          {"preset", FLAGS_preset}};
+  report["parameters"].update(quatro::DescribeOptions(options->front_end));
+  report["parameters"].update(quatro::DescribeOptions(options->quatro));
+  report["parameters"]["seed"] = options->seed;
+  report["version"] = quatro::Version();
+  std::fprintf(stderr,
+               "%-12s %9.1f ms\n%s: %s\n",
+               "total",
+               summary.total_seconds * 1e3,
+               quatro::StatusName(summary.verdict.status),
+               summary.verdict.reason.c_str());
+
+  std::vector<quatro::OutputFile> files;
+  if (!FLAGS_correspondences_out.empty()) {
+    files.push_back({FLAGS_correspondences_out,
+                     quatro::FormatMatches(summary.matched_source,
+                                           summary.matched_target)});
+  }
+  if (!FLAGS_picture.empty()) {
+    const auto picture = quatro::DrawRegistration(
+        {source->points,
+         target->points,
+         summary.matched_source,
+         summary.matched_target,
+         summary.quatro.translation_inliers,
+         summary.target_from_source(),
+         std::string(quatro::StatusName(summary.verdict.status)) + ": " +
+             summary.verdict.reason},
+        &error);
+    if (!picture) return Fail(error);
+    files.push_back({FLAGS_picture, *picture});
+  }
+  files.push_back({FLAGS_json, report.dump(2) + "\n"});
+  if (!quatro::WriteOutputs(files, &error)) return Fail(error);
+  return summary.verdict.IsRegistered() ? quatro::kExitDone
+                                        : quatro::kExitNotVouchedFor;
+}

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The ground of a street and where a car stands on it.
+//
+// Places are (s, d): s metres along the axis, d to the left of it. With c(s)
+// the axis, n(s) its normal to the left and h the ground,
+//
+//   x_in_world = ( c(s) + d n(s), h(s, d) ),                              (1)
+//   h = s tan(slope) + waves(s, d) + profile(s, d).
+//
+// The axis curves gently, with a radius above 100 m. The profile has a crown,
+// kerbs (lowered in the mouths of side streets), pavements and gardens.
+
+#ifndef QUATRO_EXPERIMENTS_ROAD_H_
+#define QUATRO_EXPERIMENTS_ROAD_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solvers/rigid3.h"
+
+namespace quatro {
+
+struct RoadOptions {
+  uint64_t seed = 1;
+  double length = 250.0;     // [m]
+  double slope = 0.0;        // Climb of the axis [rad].
+  double undulation = 0.05;  // Amplitude of the waves that are 40 m long [m].
+  double half_width = 4.5;   // Of the carriageway with parked cars [m].
+
+  // Standard deviation of a car's roll and pitch on its springs [rad].
+  double tilt_sigma = 0.0052;
+
+  bool IsValid(std::string* error) const;
+};
+
+struct SideStreet {
+  double s = 0.0;      // Of its axis [m].
+  double width = 8.0;  // [m]
+  int side = 1;        // +1 leaves to the left, -1 to the right.
+};
+
+class Road {
+ public:
+  static constexpr double kSensorHeight = 1.73;  // Above the ground [m].
+  static constexpr double kLane = -1.0;          // d of a car that drives [m].
+  static constexpr double kPavementWidth = 1.6;  // [m]
+
+  // `options` must be valid.
+  explicit Road(const RoadOptions& options);
+
+  const RoadOptions& options() const { return options_; }
+  const std::vector<SideStreet>& side_streets() const { return side_streets_; }
+
+  // Within `margin` [m] of a side street's edges.
+  bool IsInSideStreet(double s, int side, double margin) const;
+
+  double Heading(double s) const;                          // [rad]
+  Eigen::Vector3d SurfacePoint(double s, double d) const;  // Equation (1).
+
+  // Origin on the ground, x along the street, z against gravity.
+  Rigid3 WorldFromUpright(double s, double d) const;
+
+  // Origin on the ground, z its normal over the footprint of a car, x along
+  // the street but for a turn by `yaw` [rad].
+  Rigid3 WorldFromGround(double s, double d, double yaw) const;
+
+  // Of a car that drives, `lateral` [m] to the left of its lane: origin in the
+  // sensor, axes as WorldFromGround but for the springs.
+  Rigid3 WorldFromSensor(double s, double lateral, double yaw) const;
+
+ private:
+  // amplitude sin(along_s s + along_d d + phase)
+  struct Wave {
+    double amplitude, along_s, along_d, phase;
+  };
+  using Waves = std::vector<Wave>;
+
+  static double Sum(const Waves& waves, double s, double d);
+  double Height(double s, double d) const;
+
+  RoadOptions options_;
+  std::vector<SideStreet> side_streets_;
+  Waves heading_waves_, ground_waves_, roll_waves_, pitch_waves_;
+  double left_garden_slope_, right_garden_slope_;  // [m/m], outward.
+  std::vector<Eigen::Vector2d> axis_;              // c at even steps.
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_ROAD_H_

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gflags/gflags.h>
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/json_report.h"
+#include "experiments/matches_csv.h"
+#include "experiments/outputs.h"
+#include "experiments/picture.h"
+#include "experiments/program.h"
+#include "robust/presets.h"
+#include "robust/quatro.h"
+#include "robust/verdict.h"
+
+DEFINE_string(correspondences,
+              "",
+              "CSV file of matched points, sx,sy,sz,tx,ty,tz [m] a line");
+DEFINE_string(preset, "kitti", "kitti, kitti_paper or indoor");
+DEFINE_string(method, "quatro", "How to solve: quatro");
+DEFINE_double(noise_bound,
+              0.0,
+              "How far a right match may be off [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Of all that is drawn at random");
+DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+DEFINE_string(json, "", "File for the answer; empty: standard output");
+DEFINE_string(picture, "", "PNG file for the points before and after");
+
+namespace {
+
+constexpr char kUsage[] =
+    "finds the pose between matched points, most of them wrong.\n"
+    "\n"
+    "  quatro_solve --correspondences=matches.csv --noise_bound=0.3\n"
+    "\n"
+    "The answer is JSON; target_from_source moves source points onto target\n"
+    "points. Exits with 0 if registered; 1 if an answer can't be vouched for\n"
+    "(the JSON says why); 2 if a flag or a file is wrong (nothing is written\n"
+    "then).";
+
+std::optional<quatro::RegistrationOptions> OptionsFromFlags(
+    std::string* error) {
+  auto options = quatro::MakePreset(FLAGS_preset);
+  if (!options) {
+    *error = "--preset=" + FLAGS_preset + ", must be one of";
+    for (const std::string& name : quatro::PresetNames()) *error += " " + name;
+    return std::nullopt;
+  }
+  if (FLAGS_method != "quatro") {
+    *error = "--method=" + FLAGS_method + ", must be quatro";
+    return std::nullopt;
+  }
+  if (FLAGS_noise_bound != 0.0) {
+    options->quatro.noise_bound = FLAGS_noise_bound;
+  }
+  options->quatro.seed = FLAGS_seed;
+  options->quatro.num_threads = FLAGS_threads;
+  if (!options->IsValid(error)) return std::nullopt;
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using quatro::Fail;
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, "solve_main", argc, argv)) {
+    return *exit_code;
+  }
+  std::string error;
+  if (FLAGS_correspondences.empty()) {
+    return Fail("--correspondences is empty, must name a CSV file");
+  }
+  for (const std::string& path : {FLAGS_json, FLAGS_picture}) {
+    if (!path.empty() && !quatro::CanWrite(path, &error)) return Fail(error);
+  }
+  if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
+    return Fail(error);
+  }
+  const auto options = OptionsFromFlags(&error);
+  if (!options) return Fail(error);
+  const auto matches = quatro::ReadMatches(FLAGS_correspondences, &error);
+  if (!matches) return Fail(error);
+
+  quatro::Stopwatch stopwatch;
+  const quatro::QuatroSummary summary =
+      quatro::SolveQuatro(matches->source, matches->target, options->quatro);
+  const double total_seconds = stopwatch.Lap();
+  const quatro::Verdict verdict =
+      quatro::JudgeQuatro(matches->source,
+                          matches->target,
+                          summary,
+                          options->quatro.noise_bound,
+                          options->verdict);
+
+  quatro::Json report = quatro::MakeReport(
+      FLAGS_method, verdict, summary, summary.stage_times, total_seconds);
+  report["parameters"] = {{"correspondences", FLAGS_correspondences},
+                          {"preset", FLAGS_preset}};
+  report["parameters"].update(quatro::DescribeOptions(options->quatro));
+  report["version"] = quatro::Version();
+  std::fprintf(stderr,
+               "%s: %s\n",
+               quatro::StatusName(verdict.status),
+               verdict.reason.c_str());
+
+  std::vector<quatro::OutputFile> files;
+  if (!FLAGS_picture.empty()) {
+    const auto picture = quatro::DrawRegistration(
+        {matches->source,
+         matches->target,
+         matches->source,
+         matches->target,
+         summary.translation_inliers,
+         summary.target_from_source,
+         std::string(quatro::StatusName(verdict.status)) + ": " +
+             verdict.reason},
+        &error);
+    if (!picture) return Fail(error);
+    files.push_back({FLAGS_picture, *picture});
+  }
+  files.push_back({FLAGS_json, report.dump(2) + "\n"});
+  if (!quatro::WriteOutputs(files, &error)) return Fail(error);
+  return verdict.IsRegistered() ? quatro::kExitDone
+                                : quatro::kExitNotVouchedFor;
+}

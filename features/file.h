@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Whole files in and out. An error is one line, "<path>: <reason>".
+
+#ifndef QUATRO_FEATURES_FILE_H_
+#define QUATRO_FEATURES_FILE_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace quatro {
+
+// Returns nullopt and sets *error unless `path` is a regular file that can be
+// read to its end. An empty file is an empty string.
+std::optional<std::string> ReadWholeFile(const std::string& path,
+                                         std::string* error);
+
+// Writes `path`.tmp.<process>.<number>, flushes it to the disk and renames it
+// to `path`, which thus holds its old content or all of the new one. On failure
+// removes what it wrote, sets *error and returns false.
+bool WriteFileAtomically(const std::string& path,
+                         std::string_view bytes,
+                         std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_FILE_H_

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/kd_tree.h"
+
+#include <algorithm>
+#include <nanoflann.hpp>
+#include <utility>
+
+#include "features/parallel.h"
+
+namespace quatro {
+namespace {
+
+// What nanoflann wants to know of a set of points.
+struct Adaptor {
+  const Points& points;
+
+  std::size_t kdtree_get_point_count() const {
+    return static_cast<std::size_t>(points.cols());
+  }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return points(static_cast<Eigen::Index>(axis),
+                  static_cast<Eigen::Index>(i));
+  }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<
+    nanoflann::L2_Simple_Adaptor<double, Adaptor>,
+    Adaptor,
+    3,
+    std::uint32_t>;
+
+constexpr std::size_t kLeafSize = 16;
+
+}  // namespace
+
+struct KdTree::Index {
+  explicit Index(const Points& points)
+      : adaptor{points},
+        tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
+    tree.buildIndex();
+  }
+  Adaptor adaptor;
+  Tree tree;
+};
+
+KdTree::KdTree(Points points)
+    : points_(std::make_unique<const Points>(std::move(points))),
+      index_(std::make_unique<const Index>(*points_)) {}
+KdTree::~KdTree() = default;
+KdTree::KdTree(KdTree&&) noexcept = default;
+KdTree& KdTree::operator=(KdTree&&) noexcept = default;
+
+std::vector<Neighbor> KdTree::WithinRadius(const Eigen::Vector3d& query,
+                                           double radius) const {
+  std::vector<std::pair<std::uint32_t, double>> found;
+  // nanoflann keeps distances < radius^2; the closed ball is promised here.
+  const double limit =
+      std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
+  nanoflann::SearchParams params;
+  params.sorted = false;
+  index_->tree.radiusSearch(query.data(), limit, found, params);
+  std::sort(found.begin(), found.end());
+  std::vector<Neighbor> neighbors;
+  neighbors.reserve(found.size());
+  for (const auto& [i, d2] : found) neighbors.push_back({i, d2});
+  return neighbors;
+}
+
+std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
+                                      int k) const {
+  std::vector<std::uint32_t> indices(static_cast<std::size_t>(k));
+  std::vector<double> d2(static_cast<std::size_t>(k));
+  const std::size_t num_found = index_->tree.knnSearch(
+      query.data(), static_cast<std::size_t>(k), indices.data(), d2.data());
+  std::vector<Neighbor> neighbors;
+  neighbors.reserve(num_found);
+  for (std::size_t i = 0; i < num_found; ++i) {
+    neighbors.push_back({indices[i], d2[i]});
+  }
+  return neighbors;
+}
+
+Neighborhoods FindNeighborhoods(const KdTree& tree,
+                                double radius,
+                                int num_threads) {
+  const Eigen::Index n = tree.points().cols();
+  std::vector<std::vector<Neighbor>> rows(static_cast<std::size_t>(n));
+  ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index i = begin; i < end; ++i) {
+      rows[static_cast<std::size_t>(i)] =
+          tree.WithinRadius(tree.points().col(i), radius);
+    }
+  });
+
+  Neighborhoods result;
+  result.row_begin.assign(1, 0);
+  for (const auto& row : rows) {
+    result.row_begin.push_back(result.row_begin.back() +
+                               static_cast<std::int64_t>(row.size()));
+  }
+  result.index.reserve(static_cast<std::size_t>(result.row_begin.back()));
+  result.squared_distance.reserve(result.index.capacity());
+  for (auto& row : rows) {
+    for (const Neighbor& neighbor : row) {
+      result.index.push_back(static_cast<std::int32_t>(neighbor.index));
+      result.squared_distance.push_back(
+          static_cast<float>(neighbor.squared_distance));
+    }
+    std::vector<Neighbor>().swap(row);
+  }
+  return result;
+}
+
+}  // namespace quatro

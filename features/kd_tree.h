@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Nearest points in space: the one place that knows nanoflann.
+
+#ifndef QUATRO_FEATURES_KD_TREE_H_
+#define QUATRO_FEATURES_KD_TREE_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "features/types.h"
+
+namespace quatro {
+
+struct Neighbor {
+  Eigen::Index index = 0;
+  double squared_distance = 0.0;  // [m^2]
+};
+
+// Holds its own copy of the points, which must be finite. Const members may be
+// called from several threads.
+class KdTree {
+ public:
+  explicit KdTree(Points points);
+  ~KdTree();
+  KdTree(KdTree&&) noexcept;
+  KdTree& operator=(KdTree&&) noexcept;
+
+  const Points& points() const { return *points_; }
+
+  // All points no further than `radius` [m], in ascending order of index.
+  std::vector<Neighbor> WithinRadius(const Eigen::Vector3d& query,
+                                     double radius) const;
+
+  // The `k` nearest, nearest first; fewer if the tree holds fewer.
+  std::vector<Neighbor> Nearest(const Eigen::Vector3d& query, int k) const;
+
+ private:
+  struct Index;
+  std::unique_ptr<const Points> points_;
+  std::unique_ptr<const Index> index_;
+};
+
+// The points within a radius of each point of a cloud, itself among them, as
+// compressed rows: row i is [row_begin[i], row_begin[i + 1]) of `index`
+// (ascending) and `squared_distance`.
+struct Neighborhoods {
+  std::vector<std::int64_t> row_begin;
+  std::vector<std::int32_t> index;
+  std::vector<float> squared_distance;  // [m^2]
+
+  Eigen::Index size() const {
+    return static_cast<Eigen::Index>(row_begin.size()) - 1;
+  }
+};
+
+Neighborhoods FindNeighborhoods(const KdTree& tree,
+                                double radius,
+                                int num_threads);
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_KD_TREE_H_

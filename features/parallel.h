@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A loop over several threads whose result can't depend on how many.
+//
+// body(begin, end) is called on disjoint pieces of [0, n), in any order and by
+// any thread; it writes only what belongs to its piece. std::thread rather than
+// a task library: the loops here run for milliseconds, and thread sanitizers
+// understand it.
+
+#ifndef QUATRO_FEATURES_PARALLEL_H_
+#define QUATRO_FEATURES_PARALLEL_H_
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace quatro {
+
+// `num_threads` 0 stands for as many as the machine has.
+inline int NumThreadsToUse(int num_threads) {
+  if (num_threads > 0) return num_threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+template <typename Body>
+void ParallelFor(int num_threads,
+                 Eigen::Index n,
+                 Eigen::Index piece,
+                 const Body& body) {
+  const Eigen::Index num_pieces = (n + piece - 1) / piece;
+  const auto num_workers =
+      std::min<Eigen::Index>(NumThreadsToUse(num_threads), num_pieces);
+  std::atomic<Eigen::Index> next{0};
+  const auto work = [&] {
+    for (Eigen::Index i = next++; i < num_pieces; i = next++) {
+      body(i * piece, std::min(n, (i + 1) * piece));
+    }
+  };
+  std::vector<std::thread> workers;
+  for (Eigen::Index w = 1; w < num_workers; ++w) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+}
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_PARALLEL_H_

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// One function compiled for several instruction sets, chosen when the program
+// starts, so that one portable build runs at each machine's width.
+//
+// All paths give the same bits: contraction into fused multiply-add is off for
+// the whole library (third_party/target.cmake), and a loop so marked must not
+// reduce floating-point numbers across lanes.
+
+#ifndef QUATRO_FEATURES_SIMD_H_
+#define QUATRO_FEATURES_SIMD_H_
+
+// The sanitizers' start-up comes after the choice, which they would break.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define QUATRO_SIMD_CLONES \
+  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define QUATRO_SIMD_CLONES
+#endif
+
+#endif  // QUATRO_FEATURES_SIMD_H_

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/voxel_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace quatro {
+namespace {
+
+constexpr int kBitsPerAxis = 21;
+constexpr double kMaxCells = 1 << kBitsPerAxis;
+constexpr double kFixedPoint = 0x1p32;
+
+using Fixed3 = Eigen::Matrix<std::int64_t, 3, 1>;
+
+}  // namespace
+
+std::optional<Points> SampleVoxels(const PointsRef& points,
+                                   double voxel_size,
+                                   std::string* error) {
+  std::ostringstream problem;
+  if (!(voxel_size > 0.0)) {
+    problem << "voxel_size = " << voxel_size << ", must be > 0";
+    *error = problem.str();
+    return std::nullopt;
+  }
+  if (points.cols() == 0) return Points(3, 0);
+
+  const Eigen::Vector3d first_cell =
+      (points.rowwise().minCoeff() / voxel_size).array().floor();
+  const Eigen::Vector3d last_cell =
+      (points.rowwise().maxCoeff() / voxel_size).array().floor();
+  if (!((last_cell - first_cell).maxCoeff() < kMaxCells)) {
+    problem << "the cloud is "
+            << (last_cell - first_cell).maxCoeff() * voxel_size
+            << " m wide, more than 2^21 voxels of " << voxel_size
+            << " m: remove stray points or enlarge voxel_size";
+    *error = problem.str();
+    return std::nullopt;
+  }
+
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keyed(
+      static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell =
+          std::floor(points(axis, i) / voxel_size) - first_cell[axis];
+      key = key << kBitsPerAxis | static_cast<std::uint64_t>(cell);
+    }
+    keyed[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
+  }
+  std::sort(keyed.begin(), keyed.end());
+
+  Points samples(3, points.cols());
+  Eigen::Index num_samples = 0;
+  for (auto begin = keyed.begin(); begin != keyed.end();) {
+    // Offsets from the cell's corner, in cells, are in [0, 1).
+    const Eigen::Vector3d corner =
+        (points.col(begin->second) / voxel_size).array().floor();
+    Fixed3 sum = Fixed3::Zero();
+    auto end = begin;
+    for (; end != keyed.end() && end->first == begin->first; ++end) {
+      const Eigen::Vector3d offset =
+          points.col(end->second) / voxel_size - corner;
+      sum += (offset * kFixedPoint).cast<std::int64_t>();
+    }
+    const double scale = 1.0 / (kFixedPoint * static_cast<double>(end - begin));
+    samples.col(num_samples++) =
+        (corner + sum.cast<double>() * scale) * voxel_size;
+    begin = end;
+  }
+  samples.conservativeResize(3, num_samples);
+  return samples;
+}
+
+}  // namespace quatro

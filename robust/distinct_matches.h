@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Matches in an order of their own: copies of one match taken together, the
+// rest shuffled by a hash of the coordinates. What is computed from them
+// depends on neither the order nor the repetition of the input, and neighbours
+// in this order are no neighbours in space, so differences between them are
+// long.
+//
+// The hash is the same for (p, q) and (q, p): swapping source and target keeps
+// the order.
+
+#ifndef QUATRO_ROBUST_DISTINCT_MATCHES_H_
+#define QUATRO_ROBUST_DISTINCT_MATCHES_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "features/types.h"
+
+namespace quatro {
+
+struct DistinctMatches {
+  Points source;
+  Points target;
+  // Columns of the input that column k stands for.
+  std::vector<std::vector<Eigen::Index>> columns;
+};
+
+DistinctMatches FindDistinctMatches(const PointsRef& source,
+                                    const PointsRef& target);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_DISTINCT_MATCHES_H_

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// How much of the structure of one scan is met in the other, once aligned.
+//
+// Structure is what stands: points whose normal is more than 45 deg from the
+// vertical. The ground is no evidence, it fits under any yaw. A structure point
+// is met if the other scan's nearest point is within max_distance and its
+// normal within 37 deg (|cos| > 0.8), and counts only within the range of the
+// other sensor that holds three quarters of that scan's points: farther out
+// even right poses meet little.
+//
+// On 46 real pairs that were aligned right the share was 0.35-0.93, on 108 of
+// different places at most 0.16.
+
+#ifndef QUATRO_ROBUST_OVERLAP_H_
+#define QUATRO_ROBUST_OVERLAP_H_
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "features/kd_tree.h"
+#include "features/types.h"
+#include "solvers/rigid3.h"
+
+namespace quatro {
+
+struct SurfaceCloud {
+  const KdTree& tree;     // Of the points, in the frame of the sensor [m].
+  const Points& normals;  // Unit, or zero where there is none.
+};
+
+// The smaller of the shares of structure of each scan that is met in the other,
+// in [0, 1]; the same with source and target swapped. Nullopt if either has
+// fewer than 50 structure points to look for. `max_distance` [m].
+std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
+                                              const SurfaceCloud& target,
+                                              const Rigid3& target_from_source,
+                                              double max_distance,
+                                              int num_threads);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_OVERLAP_H_

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Sets of options that belong together.
+
+#ifndef QUATRO_ROBUST_PRESETS_H_
+#define QUATRO_ROBUST_PRESETS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/point_cloud.h"
+#include "robust/registration.h"
+
+namespace quatro {
+
+//   kitti        64 beams outdoors: voxels 0.3 m, normals 0.9 m, FPFH 1.5 m.
+//   kitti_paper  the paper's for the same: 0.3, 0.5 and 0.65 m, c = 0.15 m, mu
+//                started from the residuals before any fit.
+//   indoor       16 beams indoors: the paper's voxels for NAVER LABS, 0.1 m,
+//   the
+//                rest in proportion as in kitti.
+std::vector<std::string> PresetNames();
+
+// Nullopt for any other name.
+std::optional<RegistrationOptions> MakePreset(const std::string& name);
+
+// Options for these clouds, by their own density and extent: the voxel size at
+// which the larger of them keeps about 15,000 points, but not below the typical
+// distance between neighbours in the sparser; the rest in proportion as in
+// kitti. Clouds without points give preset kitti.
+RegistrationOptions MakeAutoOptions(const PointCloud& source,
+                                    const PointCloud& target);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_PRESETS_H_

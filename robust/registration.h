@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The front door: two point clouds in, a pose and how it came about out.
+//
+//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> verdict
+//
+// Source: Section III.A of the Quatro paper for the front end.
+
+#ifndef QUATRO_ROBUST_REGISTRATION_H_
+#define QUATRO_ROBUST_REGISTRATION_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/matching.h"
+#include "features/point_cloud.h"
+#include "features/stopwatch.h"
+#include "features/types.h"
+#include "robust/quatro.h"
+#include "robust/verdict.h"
+#include "solvers/rigid3.h"
+
+namespace quatro {
+
+struct FrontEndOptions {
+  double voxel_size = 0.3;     // [m]
+  double normal_radius = 0.9;  // [m]
+  double fpfh_radius = 1.5;    // [m], no less than normal_radius.
+  bool tuple_test = true;
+  TupleTestOptions tuple;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+struct RegistrationOptions {
+  FrontEndOptions front_end;
+  QuatroOptions quatro;
+  VerdictOptions verdict;
+  int num_threads = 1;  // 0: all cores. Never changes the answer.
+  std::uint64_t seed = 0;
+
+  // Called when a stage ends, with its name and duration.
+  std::function<void(const StageTime&)> progress;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+struct RegistrationSummary {
+  // Why nothing was tried: an option out of range, a cloud without points or
+  // too wide. Empty otherwise.
+  std::string error;
+
+  Verdict verdict;
+
+  // What was matched: voxel means in their own frames, column by column.
+  Points matched_source;  // [m]
+  Points matched_target;  // [m]
+  Eigen::Index num_source_voxels = 0;
+  Eigen::Index num_target_voxels = 0;
+  Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
+
+  QuatroSummary quatro;
+  std::vector<StageTime> stage_times;
+  double total_seconds = 0.0;
+
+  // Set iff there is an answer; whether it can be relied on says the verdict.
+  const std::optional<Rigid3>& target_from_source() const {
+    return quatro.target_from_source;
+  }
+};
+
+RegistrationSummary Register(const PointCloud& source,
+                             const PointCloud& target,
+                             const RegistrationOptions& options);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_H_

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Translation-invariant measurements: differences of matched points,
+//
+//   alpha_k = p_a - p_b,   beta_k = q_a - q_b,   beta_k = R alpha_k + noise,
+//
+// which hold the rotation and not the translation. Which pairs (a, b) are taken
+// is the layout.
+
+#ifndef QUATRO_ROBUST_TIMS_H_
+#define QUATRO_ROBUST_TIMS_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "features/types.h"
+
+namespace quatro {
+
+enum class TimLayout {
+  kRing,      // Each with the one before it, the first with the last: N.
+  kComplete,  // All pairs: N (N - 1) / 2.
+  kRandom,    // As many as asked for, a != b, drawn with replacement.
+};
+
+using TimPair = std::pair<Eigen::Index, Eigen::Index>;
+
+// The pairs (a, b) among `num_points`. Two points give one pair in a ring, not
+// the same one twice; fewer give none. `num_random` and `seed` matter to
+// kRandom alone.
+std::vector<TimPair> MakeTimPairs(Eigen::Index num_points,
+                                  TimLayout layout,
+                                  Eigen::Index num_random,
+                                  std::uint64_t seed);
+
+// One difference per pair and column.
+Points ComputeTims(const PointsRef& points, const std::vector<TimPair>& pairs);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_TIMS_H_

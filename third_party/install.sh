@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Installs the packages that building, testing and plotting need, those alone
+# that are missing, with apt on Debian and Ubuntu. Never asks.
+#   third_party/install.sh [--check] [--ci]
+#     --check  install nothing; list what is missing, exit 1 if anything is
+#     --ci     with what only .ci/run needs
+# Exits 1 if something could not be installed. Elsewhere it lists what to
+# install and exits 0: cmake finds out whether it is there.
+set -euo pipefail
+
+# third_party/README.md tells what each is for.
+packages=(g++ cmake ninja-build make libeigen3-dev libceres-dev
+          libgoogle-glog-dev libgflags-dev libnanoflann-dev liblzf-dev
+          nlohmann-json3-dev libembree-dev libgtest-dev libgmock-dev
+          python3-numpy python3-matplotlib)
+
+check=false
+for arg in "$@"; do
+  case "$arg" in
+    --check) check=true ;;
+    --ci) packages+=(clang-format) ;;
+    *) echo "usage: $0 [--check] [--ci]" >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  cat >&2 <<'END'
+install.sh: no apt-get here; with your own package manager install
+  a C++20 compiler, CMake (3.22 or newer), Ninja or make, Eigen (3.4),
+  Ceres Solver (2.1 or newer), glog, gflags, nanoflann, liblzf,
+  nlohmann-json (3), Embree (3), GoogleTest with GoogleMock,
+  Python 3 with NumPy and Matplotlib
+END
+  exit 0
+fi
+
+find_missing() {
+  missing=()
+  local installed package
+  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)
+  for package in "${packages[@]}"; do
+    grep -qxF "installed $package" <<<"$installed" || missing+=("$package")
+  done
+}
+
+find_missing
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+if $check; then
+  printf '%s\n' "${missing[@]}"
+  exit 1
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  as_root=(sudo -n)
+fi
+apt_get() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get -q -o DPkg::Lock::Timeout=300 "$@" </dev/null
+}
+if "${as_root[@]}" true 2>/dev/null; then
+  # Where the index cannot be updated, the one at hand may do.
+  apt_get update || true
+  apt_get install -y --no-install-recommends "${missing[@]}" || true
+fi
+
+find_missing
+if ((${#missing[@]} != 0)); then
+  echo "install.sh: could not install; as root: apt-get install ${missing[*]}" >&2
+  exit 1
+fi

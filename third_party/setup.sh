@@ -1,0 +1,37 @@
+# shellcheck shell=bash
+# From a clean clone to programs. Sourced by tests/run.sh, experiments/demo.sh
+# and .ci/run, with the root of the repository as current directory.
+
+# What cannot be installed may be there by other means: cmake finds out.
+quatro_install() {
+  bash third_party/install.sh || true
+}
+
+#   quatro_configure <preset> <build folder>
+# A build folder keeps the generator it has.
+quatro_configure() {
+  local generator=()
+  if [[ ! -e $2/CMakeCache.txt ]] && command -v ninja >/dev/null; then
+    generator=(-G Ninja)
+  fi
+  cmake --preset "$1" "${generator[@]}"
+}
+
+# One job a core, as far as there are 2 GB of memory for each.
+quatro_jobs() {
+  local cores room
+  cores=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)
+  room=$(awk '/^MemAvailable:/ {print int($2 / 2e6)}' /proc/meminfo 2>/dev/null) || room=$cores
+  room=$((room < cores ? room : cores))
+  echo $((room < 1 ? 1 : room))
+}
+
+#   quatro_build <build folder> [<target>...]
+quatro_build() {
+  local folder=$1 targets=()
+  shift
+  if (($# > 0)); then
+    targets=(--target "$@")
+  fi
+  cmake --build "$folder" -j "$(quatro_jobs)" "${targets[@]}"
+}
