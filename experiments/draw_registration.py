@@ -37,16 +37,23 @@ def draw_matches(axes, source, target, color, label, alpha):
     axes.plot([], [], "-", color=color, label=label)
 
 
-def finish(axes, title, clouds):
+def window(clouds):
+    """Lowest and highest x and y shown: all but a few points far out."""
     shown = np.concatenate([cloud[:, :2] for cloud in clouds])
-    low, high = np.percentile(shown, [0.5, 99.5], axis=0) if len(shown) else (-np.ones(2), np.ones(2))
+    if len(shown) == 0:
+        return -np.ones(2), np.ones(2)
+    low, high = np.percentile(shown, [0.5, 99.5], axis=0)
     margin = 0.05 * (high - low) + 0.1
-    axes.set_xlim(low[0] - margin[0], high[0] + margin[0])
-    axes.set_ylim(low[1] - margin[1], high[1] + margin[1])
+    return low - margin, high + margin
+
+
+def finish(axes, title, low, high, origin):
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
     axes.set_aspect("equal", adjustable="box")
     axes.set_title(title)
-    axes.set_xlabel("x [m]")
-    axes.set_ylabel("y [m]")
+    for name, value, label in zip("xy", origin, (axes.set_xlabel, axes.set_ylabel)):
+        label(f"{name} [m]" if value == 0 else f"{name} - {value:.0f} [m]")
     axes.legend(loc="upper right", fontsize="small", framealpha=0.9)
 
 
@@ -62,25 +69,31 @@ def main():
     rejected = np.flatnonzero(~is_inlier)
     rejected = rejected[:: max(1, -(-len(rejected) // MAX_DRAWN))]
 
-    figure, (before, after) = plt.subplots(1, 2, figsize=(16, 8.5), layout="constrained")
-    figure.suptitle(data["title"])
+    aligned = points(data, "aligned") if "aligned" in data else source[:0]
+    low, high = window([source, target, aligned])
+    aspect = (high[0] - low[0]) / (high[1] - low[1])
+    rows, columns = (2, 1) if aspect > 1.4 else (1, 2)
+    width = 13.0 if rows == 2 else 17.0
+    height = width / columns / aspect * rows + 1.5
+    figure, (before, after) = plt.subplots(rows, columns, figsize=(width, min(height, 20.0)),
+                                           layout="constrained")
+    figure.suptitle(data["title"], fontsize="medium", wrap=True)
     draw_cloud(before, target, TARGET, "target")
     draw_cloud(before, source, SOURCE, "source")
     draw_matches(before, matched_source[rejected], matched_target[rejected], OUTLIER,
-                 f"{np.sum(~is_inlier)} rejected ({len(rejected)} drawn)", 0.35)
+                 f"{np.sum(~is_inlier)} matches rejected ({len(rejected)} drawn)", 0.5)
     draw_matches(before, matched_source[is_inlier], matched_target[is_inlier], INLIER,
                  f"{np.sum(is_inlier)} inliers", 0.8)
-    finish(before, "before, with the matches", [source, target])
+    finish(before, "before, with the matches", low, high, data["origin"])
 
     draw_cloud(after, target, TARGET, "target")
     if "aligned" in data:
-        aligned = points(data, "aligned")
-        draw_cloud(after, aligned, SOURCE, "source, moved")
+        draw_cloud(after, aligned, SOURCE, "source, moved onto the target")
         moved = points(data, "matched_aligned")[is_inlier]
         after.plot(moved[:, 0], moved[:, 1], ".", color=INLIER, markersize=3, label="inliers")
-        finish(after, "after", [aligned, target])
+        finish(after, "after", low, high, data["origin"])
     else:
-        finish(after, "no answer", [target])
+        finish(after, "no answer", low, high, data["origin"])
     figure.savefig(sys.argv[2], dpi=100, format="png")
 
 

@@ -4,6 +4,7 @@
 #include "experiments/json_report.h"
 
 #include <cmath>
+#include <optional>
 
 #include "solvers/rigid3.h"
 
@@ -26,6 +27,8 @@ const char* Name(Pruning pruning) {
   switch (pruning) {
     case Pruning::kCliqueHeuristic:
       return "clique_heuristic";
+    case Pruning::kExactClique:
+      return "exact_clique";
     case Pruning::kMaxCore:
       return "max_core";
     case Pruning::kNone:
@@ -55,6 +58,31 @@ const char* Name(GncStart start) {
   return start == GncStart::kIdentity ? "identity" : "plain_fit";
 }
 
+const char* Name(YawSolver solver) {
+  return solver == YawSolver::kExact ? "exact" : "gnc";
+}
+
+Json Rows(const Rigid3& motion) {
+  const Eigen::Matrix4d matrix = motion.ToMatrix();
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    rows.push_back(
+        {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
+  }
+  return rows;
+}
+
+Json OrNull(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json Describe(const std::optional<YawCertificate>& certificate) {
+  if (!certificate) return nullptr;
+  return {{"gnc_cost", OrNull(certificate->gnc_cost)},
+          {"optimal_cost", certificate->optimal_cost},
+          {"gap", OrNull(certificate->gap)}};
+}
+
 // Microseconds are as fine as a clock is believed.
 double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
 
@@ -62,7 +90,7 @@ double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
 
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
-                const QuatroSummary& quatro,
+                const PoseSummary& solution,
                 const std::vector<StageTime>& stage_times,
                 double total_seconds) {
   Json report;
@@ -70,30 +98,36 @@ Json MakeReport(const std::string& method,
   report["reason"] = verdict.reason;
   report["target_from_source"] = nullptr;
   report["yaw_deg"] = nullptr;
-  if (quatro.IsUsable()) {
-    const Eigen::Matrix4d matrix = quatro.target_from_source->ToMatrix();
-    Json rows = Json::array();
-    for (int row = 0; row < 4; ++row) {
-      rows.push_back(
-          {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
-    }
-    report["target_from_source"] = rows;
-    report["yaw_deg"] = Yaw(quatro.target_from_source->rotation) * 180.0 / M_PI;
+  if (solution.IsUsable()) {
+    report["target_from_source"] = Rows(*solution.target_from_source);
+    report["yaw_deg"] =
+        Yaw(solution.target_from_source->rotation) * 180.0 / M_PI;
   }
-  report["counts"] = {{"correspondences", quatro.num_distinct},
-                      {"clique", quatro.num_consistent},
-                      {"tims", quatro.num_tims},
-                      {"rotation_inliers", quatro.num_rotation_inliers},
-                      {"translation_inliers", quatro.num_translation_inliers},
+  report["unpolished_target_from_source"] =
+      solution.unpolished_target_from_source
+          ? Rows(*solution.unpolished_target_from_source)
+          : Json(nullptr);
+  if (solution.scale != 1.0) report["scale"] = solution.scale;
+  report["counts"] = {{"correspondences", solution.num_distinct},
+                      {"clique", solution.num_consistent},
+                      {"tims", solution.num_tims},
+                      {"rotation_inliers", solution.num_rotation_inliers},
+                      {"translation_inliers", solution.num_translation_inliers},
                       {"agreeing", verdict.num_agreeing}};
   report["evidence"] = {
       {"chance_of_agreement", verdict.chance_of_agreement},
       {"log10_false_alarms", verdict.log10_false_alarms},
-      {"structure_overlap",
-       verdict.structure_overlap ? Json(*verdict.structure_overlap)
-                                 : Json(nullptr)}};
+      {"structure_overlap", OrNull(verdict.structure_overlap)}};
   report["covariance"] = nullptr;
-  report["certificate"] = nullptr;
+  report["certificate"] = Describe(solution.certificate);
+  if (solution.crosscheck) {
+    report["crosscheck"] = {
+        {"subproblems", solution.crosscheck->num_subproblems},
+        {"max_rotation_difference_rad",
+         solution.crosscheck->max_rotation_difference},
+        {"max_translation_difference_m",
+         solution.crosscheck->max_translation_difference}};
+  }
   Json timings;
   for (const StageTime& time : stage_times) {
     timings[time.stage] = Milliseconds(time.seconds);
@@ -110,10 +144,14 @@ Json DescribeOptions(const QuatroOptions& options) {
           {"consistency_test", Name(options.consistency_test)},
           {"pruning", Name(options.pruning)},
           {"tim_layout", Name(options.tim_layout)},
+          {"yaw_solver", Name(options.yaw_solver)},
           {"surrogate", Name(options.surrogate)},
           {"gnc_start", Name(options.gnc.start)},
           {"gnc_mu_step", options.gnc.mu_step},
           {"gnc_max_num_iterations", options.gnc.max_num_iterations},
+          {"replace_missed_optimum", options.replace_missed_optimum},
+          {"recover_translation", options.recover_translation},
+          {"polish", options.polish},
           {"seed", options.seed}};
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "features/stopwatch.h"
+#include "robust/pose_summary.h"
 #include "robust/quatro.h"
 #include "robust/registration.h"
 #include "robust/verdict.h"
@@ -23,7 +24,7 @@ using Json = nlohmann::ordered_json;
 // or null), yaw_deg, counts, covariance, certificate, timings_ms, method.
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
-                const QuatroSummary& quatro,
+                const PoseSummary& solution,
                 const std::vector<StageTime>& stage_times,
                 double total_seconds);
 

@@ -21,6 +21,11 @@ bool CanWrite(const std::string& path, std::string* error) {
     *error = path + ": is a directory, must be a file to write";
     return false;
   }
+  // It would be replaced: renaming onto /dev/null leaves a machine without it.
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+    *error = path + ": is not a regular file";
+    return false;
+  }
   const fs::path parent = fs::path(path).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   if (!fs::is_directory(folder, ignored)) {

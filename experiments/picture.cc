@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDrawnVoxel = 0.2;  // [m]
+constexpr double kDrawnVoxel = 0.2;    // [m]
+constexpr double kOriginStep = 10000.0;  // [m]
 
 // The scripts stand beside the sources; an installed program has them in share.
 fs::path FindScript(const std::string& name) {
@@ -89,10 +90,13 @@ std::optional<std::string> DrawRegistration(const RegistrationPicture& picture,
                                             std::string* error) {
   nlohmann::json data;
   data["title"] = picture.title;
-  // Everything about one point, so that what is drawn keeps its digits.
-  const Eigen::Vector3d origin = picture.target.cols() > 0
-                                     ? Eigen::Vector3d(picture.target.col(0))
-                                     : Eigen::Vector3d::Zero();
+  // Everything about a round number near by, so that what is drawn keeps its
+  // digits; zero for all but map coordinates.
+  const Eigen::Vector3d origin =
+      picture.target.cols() > 0
+          ? Eigen::Vector3d((picture.target.col(0) / kOriginStep).array().round() *
+                            kOriginStep)
+          : Eigen::Vector3d::Zero();
   data["origin"] = {origin.x(), origin.y(), origin.z()};
   data["source"] = Thinned(picture.source.colwise() - origin);
   data["target"] = Thinned(picture.target.colwise() - origin);

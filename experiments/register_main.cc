@@ -9,6 +9,7 @@
 
 #include "experiments/json_report.h"
 #include "experiments/matches_csv.h"
+#include "experiments/methods.h"
 #include "experiments/outputs.h"
 #include "experiments/picture.h"
 #include "experiments/program.h"
@@ -23,7 +24,14 @@ DEFINE_string(
     "kitti",
     "kitti (64 beams outdoors), kitti_paper (the paper's parameters), "
     "indoor (16 beams), or auto (from the clouds themselves)");
-DEFINE_string(method, "quatro", "How to solve: quatro");
+DEFINE_string(method,
+              "quatro",
+              "How to solve; --list_methods says what there is");
+DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_bool(crosscheck,
+            false,
+            "Solve every weighted subproblem by Ceres too and report the "
+            "largest difference");
 DEFINE_double(voxel_size, 0.0, "Of the sampling [m]; 0: the preset's");
 DEFINE_double(normal_radius, 0.0, "Of the normals [m]; 0: the preset's");
 DEFINE_double(fpfh_radius, 0.0, "Of the descriptors [m]; 0: the preset's");
@@ -66,10 +74,6 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     for (const std::string& name : quatro::PresetNames()) *error += ", " + name;
     return std::nullopt;
   }
-  if (FLAGS_method != "quatro") {
-    *error = "--method=" + FLAGS_method + ", must be quatro";
-    return std::nullopt;
-  }
   const auto override_with = [](double flag, double* value) {
     if (flag != 0.0) *value = flag;
   };
@@ -79,7 +83,12 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   override_with(FLAGS_noise_bound, &options->quatro.noise_bound);
   options->seed = FLAGS_seed;
   options->num_threads = FLAGS_threads;
+  options->quatro.seed = FLAGS_seed;
+  options->quatro.num_threads = FLAGS_threads;
+  options->quatro.crosscheck = FLAGS_crosscheck;
   if (!options->IsValid(error)) return std::nullopt;
+  options->solver = quatro::MakeSolver(FLAGS_method, options->quatro, error);
+  if (!options->solver) return std::nullopt;
   return options;
 }
 
@@ -90,6 +99,10 @@ int main(int argc, char** argv) {
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "register_main", argc, argv)) {
     return *exit_code;
+  }
+  if (FLAGS_list_methods) {
+    std::fputs(quatro::DescribeMethods().c_str(), stdout);
+    return quatro::kExitDone;
   }
   std::string error;
   if (FLAGS_source.empty()) return Fail("--source is empty, must name a cloud");
@@ -121,7 +134,7 @@ int main(int argc, char** argv) {
 
   quatro::Json report = quatro::MakeReport(FLAGS_method,
                                            summary.verdict,
-                                           summary.quatro,
+                                           summary.solution,
                                            summary.stage_times,
                                            summary.total_seconds);
   report["counts"].update(
@@ -137,7 +150,6 @@ int main(int argc, char** argv) {
                           {"preset", FLAGS_preset}};
   report["parameters"].update(quatro::DescribeOptions(options->front_end));
   report["parameters"].update(quatro::DescribeOptions(options->quatro));
-  report["parameters"]["seed"] = options->seed;
   report["version"] = quatro::Version();
   std::fprintf(stderr,
                "%-12s %9.1f ms\n%s: %s\n",
@@ -158,7 +170,7 @@ int main(int argc, char** argv) {
          target->points,
          summary.matched_source,
          summary.matched_target,
-         summary.quatro.translation_inliers,
+         summary.solution.translation_inliers,
          summary.target_from_source(),
          std::string(quatro::StatusName(summary.verdict.status)) + ": " +
              summary.verdict.reason},

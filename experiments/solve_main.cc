@@ -10,18 +10,25 @@
 
 #include "experiments/json_report.h"
 #include "experiments/matches_csv.h"
+#include "experiments/methods.h"
 #include "experiments/outputs.h"
 #include "experiments/picture.h"
 #include "experiments/program.h"
 #include "robust/presets.h"
-#include "robust/quatro.h"
 #include "robust/verdict.h"
 
 DEFINE_string(correspondences,
               "",
               "CSV file of matched points, sx,sy,sz,tx,ty,tz [m] a line");
-DEFINE_string(preset, "kitti", "kitti, kitti_paper or indoor");
-DEFINE_string(method, "quatro", "How to solve: quatro");
+DEFINE_string(preset, "kitti", "kitti, paper, reference or indoor");
+DEFINE_string(method,
+              "auto",
+              "How to solve; --list_methods says what there is");
+DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_bool(crosscheck,
+            false,
+            "Solve every weighted subproblem by Ceres too and report the "
+            "largest difference");
 DEFINE_double(noise_bound,
               0.0,
               "How far a right match may be off [m]; 0: the preset's");
@@ -50,15 +57,12 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     for (const std::string& name : quatro::PresetNames()) *error += " " + name;
     return std::nullopt;
   }
-  if (FLAGS_method != "quatro") {
-    *error = "--method=" + FLAGS_method + ", must be quatro";
-    return std::nullopt;
-  }
   if (FLAGS_noise_bound != 0.0) {
     options->quatro.noise_bound = FLAGS_noise_bound;
   }
   options->quatro.seed = FLAGS_seed;
   options->quatro.num_threads = FLAGS_threads;
+  options->quatro.crosscheck = FLAGS_crosscheck;
   if (!options->IsValid(error)) return std::nullopt;
   return options;
 }
@@ -70,6 +74,10 @@ int main(int argc, char** argv) {
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "solve_main", argc, argv)) {
     return *exit_code;
+  }
+  if (FLAGS_list_methods) {
+    std::fputs(quatro::DescribeMethods().c_str(), stdout);
+    return quatro::kExitDone;
   }
   std::string error;
   if (FLAGS_correspondences.empty()) {
@@ -83,19 +91,21 @@ int main(int argc, char** argv) {
   }
   const auto options = OptionsFromFlags(&error);
   if (!options) return Fail(error);
+  const quatro::PoseSolver solver =
+      quatro::MakeSolver(FLAGS_method, options->quatro, &error);
+  if (!solver) return Fail(error);
   const auto matches = quatro::ReadMatches(FLAGS_correspondences, &error);
   if (!matches) return Fail(error);
 
   quatro::Stopwatch stopwatch;
-  const quatro::QuatroSummary summary =
-      quatro::SolveQuatro(matches->source, matches->target, options->quatro);
+  const quatro::PoseSummary summary = solver(matches->source, matches->target);
   const double total_seconds = stopwatch.Lap();
   const quatro::Verdict verdict =
-      quatro::JudgeQuatro(matches->source,
-                          matches->target,
-                          summary,
-                          options->quatro.noise_bound,
-                          options->verdict);
+      quatro::JudgeSummary(matches->source,
+                           matches->target,
+                           summary,
+                           options->quatro.noise_bound,
+                           options->verdict);
 
   quatro::Json report = quatro::MakeReport(
       FLAGS_method, verdict, summary, summary.stage_times, total_seconds);

@@ -15,6 +15,12 @@
 namespace quatro {
 namespace {
 
+// Cosines to the line that differ less than this are equal but for rounding.
+constexpr float kEqualCosines = 1e-5f;
+
+// Sine of the angle between line and normal, below which v in (1) is rounding.
+constexpr float kMinSine = 1e-4f;
+
 int Bin(float f) {
   const int bin = static_cast<int>((f + 1.0f) * 0.5f * kFpfhBinsPerPart);
   return std::clamp(bin, 0, kFpfhBinsPerPart - 1);
@@ -41,13 +47,19 @@ std::optional<Eigen::Vector3f> ComputePairFeature(const Eigen::Vector3f& p1,
   d /= distance;
   Eigen::Vector3f n_s = n1;
   Eigen::Vector3f n_t = n2;
-  if (std::abs(n1.dot(d)) < std::abs(n2.dot(d))) {
+  const float cos1 = n1.dot(d);
+  const float cos2 = n2.dot(d);
+  const float difference = std::abs(cos2) - std::abs(cos1);
+  const bool is_second = std::abs(difference) > kEqualCosines
+                             ? difference > 0.0f
+                             : cos1 + cos2 < 0.0f;
+  if (is_second) {
     std::swap(n_s, n_t);
     d = -d;
   }
   Eigen::Vector3f v = d.cross(n_s);
   const float v_norm = v.norm();
-  if (!(v_norm > 0.0f)) return std::nullopt;
+  if (!(v_norm > kMinSine)) return std::nullopt;
   v /= v_norm;
   const Eigen::Vector3f w = n_s.cross(v);
   constexpr float kPi = 3.14159265358979f;

@@ -8,8 +8,10 @@
 //
 //   f = ( atan2(w . n_t, n_s . n_t) / pi,   v . n_t,   n_s . d )           (1)
 //
-// each in [-1, 1], into 11 bins each. SPFH(p) is the histogram of (1) over the
-// pairs of p with its neighbours, each part summing to 1, and
+// each in [-1, 1], into 11 bins each. Where both normals are equally close, as
+// parallel ones, (p_s, n_s) is the one of greater n_s . d. SPFH(p) is the
+// histogram of (1) over the pairs of p with its neighbours, each part summing
+// to 1, and
 //
 //   FPFH(p) = SPFH(p) + 1/k sum_j SPFH(p_j) / |p_j - p|,                    (2)
 //
@@ -44,7 +46,7 @@ Fpfh ComputeFpfh(const PointsRef& points,
                  int num_threads);
 
 // Equation (1) for one pair, the same whichever point comes first. Nullopt for
-// coincident points and for a line along the normal.
+// coincident points and for a line along the normal (within 1e-4 rad).
 std::optional<Eigen::Vector3f> ComputePairFeature(const Eigen::Vector3f& p1,
                                                   const Eigen::Vector3f& n1,
                                                   const Eigen::Vector3f& p2,

@@ -4,6 +4,8 @@
 #include "features/kd_tree.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
 #include <utility>
 
@@ -59,21 +61,27 @@ KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 std::vector<Neighbor> KdTree::WithinRadius(const Eigen::Vector3d& query,
                                            double radius) const {
   std::vector<std::pair<std::uint32_t, double>> found;
-  // nanoflann keeps distances < radius^2; the closed ball is promised here.
-  const double limit =
-      std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
+  // nanoflann keeps distances < limit, and prunes by sums that round otherwise
+  // than the distances; the closed ball is promised here.
+  constexpr double kPruningError = 1e-12;
+  const double squared_radius = radius * radius;
+  const double limit = std::nextafter(squared_radius * (1.0 + kPruningError),
+                                      std::numeric_limits<double>::infinity());
   nanoflann::SearchParams params;
   params.sorted = false;
   index_->tree.radiusSearch(query.data(), limit, found, params);
   std::sort(found.begin(), found.end());
   std::vector<Neighbor> neighbors;
   neighbors.reserve(found.size());
-  for (const auto& [i, d2] : found) neighbors.push_back({i, d2});
+  for (const auto& [i, d2] : found) {
+    if (d2 <= squared_radius) neighbors.push_back({i, d2});
+  }
   return neighbors;
 }
 
 std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
                                       int k) const {
+  if (k < 1) return {};
   std::vector<std::uint32_t> indices(static_cast<std::size_t>(k));
   std::vector<double> d2(static_cast<std::size_t>(k));
   const std::size_t num_found = index_->tree.knnSearch(

@@ -25,18 +25,26 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
                                    double voxel_size,
                                    std::string* error) {
   std::ostringstream problem;
-  if (!(voxel_size > 0.0)) {
-    problem << "voxel_size = " << voxel_size << ", must be > 0";
+  if (!(voxel_size > 0.0 && std::isfinite(voxel_size))) {
+    problem << "voxel_size = " << voxel_size << ", must be > 0 and finite";
     *error = problem.str();
     return std::nullopt;
   }
   if (points.cols() == 0) return Points(3, 0);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (points.col(i).allFinite()) continue;
+    problem << "point " << i << " is not finite";
+    *error = problem.str();
+    return std::nullopt;
+  }
 
   const Eigen::Vector3d first_cell =
       (points.rowwise().minCoeff() / voxel_size).array().floor();
   const Eigen::Vector3d last_cell =
       (points.rowwise().maxCoeff() / voxel_size).array().floor();
-  if (!((last_cell - first_cell).maxCoeff() < kMaxCells)) {
+  // Each axis by itself: a NaN, as of infinite cells, may get lost in a
+  // maximum.
+  if (!((last_cell - first_cell).array() < kMaxCells).all()) {
     problem << "the cloud is "
             << (last_cell - first_cell).maxCoeff() * voxel_size
             << " m wide, more than 2^21 voxels of " << voxel_size

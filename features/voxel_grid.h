@@ -20,7 +20,8 @@
 namespace quatro {
 
 // `voxel_size` [m]. Returns nullopt and says why in *error if voxel_size is not
-// positive, a point is not finite, or the cloud is wider than 2^21 cells.
+// positive and finite, a point is not finite, or the cloud is wider than 2^21
+// cells.
 std::optional<Points> SampleVoxels(const PointsRef& points,
                                    double voxel_size,
                                    std::string* error);

@@ -94,6 +94,18 @@ QUATRO_SIMD_CLONES void TestRow(ConsistencyTest test,
   }
 }
 
+// Of each axis: where most points are, wherever a few outliers may be.
+Eigen::Vector3d Median(const PointsRef& points) {
+  Eigen::Vector3d median;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::VectorXd x = points.row(axis).transpose();
+    const auto middle = x.begin() + x.size() / 2;
+    std::nth_element(x.begin(), middle, x.end());
+    median[axis] = *middle;
+  }
+  return median;
+}
+
 }  // namespace
 
 bool ConsistencyOptions::IsValid(std::string* error) const {
@@ -117,10 +129,8 @@ Graph BuildConsistencyGraph(const PointsRef& source,
   Graph graph(static_cast<int>(n));
   if (n == 0) return graph;
 
-  const Eigen::Matrix3Xf p =
-      (source.colwise() - source.rowwise().mean()).cast<float>();
-  const Eigen::Matrix3Xf q =
-      (target.colwise() - target.rowwise().mean()).cast<float>();
+  const Eigen::Matrix3Xf p = (source.colwise() - Median(source)).cast<float>();
+  const Eigen::Matrix3Xf q = (target.colwise() - Median(target)).cast<float>();
   const auto num_blocks =
       static_cast<std::size_t>((n + Graph::kWordBits - 1) / Graph::kWordBits);
   std::vector<Block> blocks(num_blocks);

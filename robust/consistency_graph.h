@@ -105,7 +105,8 @@ struct ConsistencyOptions {
 };
 
 // `source` and `target` hold the matches column by column. Distances are in
-// single precision about the clouds' means: exact to about 1e-7 of the extent.
+// single precision about the clouds' medians: exact to about 1e-7 of how far
+// from there the points are, and a far outlier spoils no edge but its own.
 Graph BuildConsistencyGraph(const PointsRef& source,
                             const PointsRef& target,
                             const ConsistencyOptions& options,

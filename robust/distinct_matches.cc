@@ -75,4 +75,25 @@ DistinctMatches FindDistinctMatches(const PointsRef& source,
   return distinct;
 }
 
+std::vector<Eigen::Index> InputColumns(
+    const DistinctMatches& matches, const std::vector<Eigen::Index>& selected) {
+  std::vector<Eigen::Index> columns;
+  for (const Eigen::Index k : selected) {
+    const auto& copies = matches.columns[static_cast<std::size_t>(k)];
+    columns.insert(columns.end(), copies.begin(), copies.end());
+  }
+  std::sort(columns.begin(), columns.end());
+  return columns;
+}
+
+Points Columns(const PointsRef& points,
+               const std::vector<Eigen::Index>& columns) {
+  Points selected(3, static_cast<Eigen::Index>(columns.size()));
+  Eigen::Index k = 0;
+  for (const Eigen::Index column : columns) {
+    selected.col(k++) = points.col(column);
+  }
+  return selected;
+}
+
 }  // namespace quatro

@@ -29,6 +29,15 @@ struct DistinctMatches {
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target);
 
+// The input columns that the given distinct matches stand for, in ascending
+// order.
+std::vector<Eigen::Index> InputColumns(
+    const DistinctMatches& matches, const std::vector<Eigen::Index>& selected);
+
+// The given columns of `points`, in that order.
+Points Columns(const PointsRef& points,
+               const std::vector<Eigen::Index>& columns);
+
 }  // namespace quatro
 
 #endif  // QUATRO_ROBUST_DISTINCT_MATCHES_H_

@@ -26,14 +26,32 @@ RegistrationOptions InProportionTo(double voxel_size) {
   return options;
 }
 
-RegistrationOptions MakeKittiPaper() {
+// Without what the paper and its code do not have.
+RegistrationOptions WithoutExtensions() {
   RegistrationOptions options;
   options.front_end.voxel_size = 0.3;
   options.front_end.normal_radius = 0.5;
+  options.quatro.replace_missed_optimum = false;
+  options.quatro.recover_translation = false;
+  options.quatro.polish = false;
+  return options;
+}
+
+RegistrationOptions MakePaper() {
+  RegistrationOptions options = WithoutExtensions();
   options.front_end.fpfh_radius = 0.65;
   options.quatro.noise_bound = 0.15;
   options.quatro.tim_bound_factor = 1.0;
   options.quatro.gnc.start = GncStart::kIdentity;
+  return options;
+}
+
+RegistrationOptions MakeReference() {
+  RegistrationOptions options = WithoutExtensions();
+  options.front_end.fpfh_radius = 0.75;
+  options.quatro.noise_bound = 0.3;
+  options.quatro.tim_bound_factor = 2.0;
+  options.quatro.gnc.start = GncStart::kPlainFit;
   return options;
 }
 
@@ -76,12 +94,13 @@ double TypicalSpacing(const PointCloud& cloud) {
 }  // namespace
 
 std::vector<std::string> PresetNames() {
-  return {"kitti", "kitti_paper", "indoor"};
+  return {"kitti", "paper", "kitti_paper", "reference", "indoor"};
 }
 
 std::optional<RegistrationOptions> MakePreset(const std::string& name) {
   if (name == "kitti") return InProportionTo(0.3);
-  if (name == "kitti_paper") return MakeKittiPaper();
+  if (name == "paper" || name == "kitti_paper") return MakePaper();
+  if (name == "reference") return MakeReference();
   if (name == "indoor") return InProportionTo(0.1);
   return std::nullopt;
 }

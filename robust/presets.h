@@ -15,8 +15,13 @@
 namespace quatro {
 
 //   kitti        64 beams outdoors: voxels 0.3 m, normals 0.9 m, FPFH 1.5 m.
-//   kitti_paper  the paper's for the same: 0.3, 0.5 and 0.65 m, c = 0.15 m, mu
-//                started from the residuals before any fit.
+//   paper        the paper's for the same: 0.3, 0.5 and 0.65 m, c = 0.15 m for
+//                points and their differences alike, mu started from the
+//                residuals before any fit; nothing that the paper does not
+//                have. Also as kitti_paper.
+//   reference    the authors' later code: 0.3, 0.5 and 0.75 m, 0.3 m doubled
+//   for
+//                differences, mu started from those of the plain fit.
 //   indoor       16 beams indoors: the paper's voxels for NAVER LABS, 0.1 m,
 //   the
 //                rest in proportion as in kitti.

@@ -5,78 +5,119 @@
 
 #include <glog/logging.h>
 
-#include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <optional>
 #include <sstream>
+#include <vector>
 
+#include "robust/consensus.h"
+#include "robust/crosscheck.h"
 #include "robust/distinct_matches.h"
-#include "robust/max_clique.h"
 #include "robust/quasi_so3.h"
+#include "robust/recovery.h"
 #include "robust/surrogate.h"
+#include "solvers/exact_yaw.h"
 #include "solvers/translation.h"
 
 namespace quatro {
 namespace {
 
-std::vector<int> FindConsistent(const DistinctMatches& matches,
-                                const QuatroOptions& options,
-                                Stopwatch* stopwatch,
-                                std::vector<StageTime>* times) {
-  const auto n = static_cast<int>(matches.source.cols());
-  if (options.pruning == Pruning::kNone) {
-    std::vector<int> all(static_cast<std::size_t>(n));
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
-  ConsistencyOptions consistency;
-  consistency.test = options.consistency_test;
-  consistency.bound = 2.0 * options.noise_bound;
-  consistency.max_tilt = options.max_tilt;
-  const Graph graph = BuildConsistencyGraph(
-      matches.source, matches.target, consistency, options.num_threads);
-  times->push_back({"graph", stopwatch->Lap()});
-  std::vector<int> consistent = options.pruning == Pruning::kMaxCore
-                                    ? FindMaxCore(graph)
-                                    : FindCliqueGreedily(graph);
-  times->push_back({"clique", stopwatch->Lap()});
-  return consistent;
+constexpr int kNumNeeded = 2;
+
+PruningOptions PruningFrom(const QuatroOptions& options) {
+  PruningOptions pruning;
+  pruning.method = options.pruning;
+  pruning.time_limit_seconds = options.clique_time_limit_seconds;
+  pruning.consistency.test = options.consistency_test;
+  pruning.consistency.bound = 2.0 * options.noise_bound;
+  pruning.consistency.max_tilt = options.max_tilt;
+  return pruning;
 }
 
-Points Columns(const PointsRef& points, const std::vector<int>& columns) {
-  Points selected(3, static_cast<Eigen::Index>(columns.size()));
-  Eigen::Index k = 0;
-  for (const int column : columns) selected.col(k++) = points.col(column);
-  return selected;
+PolishOptions PolishFrom(const QuatroOptions& options) {
+  PolishOptions polish;
+  polish.noise_bound = options.noise_bound;
+  polish.max_tilt = options.polish_max_tilt;
+  polish.max_rotation_std = options.polish_max_rotation_std;
+  return polish;
 }
 
-// The input columns that the given distinct matches stand for.
-std::vector<Eigen::Index> InputColumns(const DistinctMatches& matches,
-                                       const std::vector<int>& selected) {
-  std::vector<Eigen::Index> columns;
-  for (const int k : selected) {
-    const auto& copies = matches.columns[static_cast<std::size_t>(k)];
-    columns.insert(columns.end(), copies.begin(), copies.end());
+template <typename Subproblem>
+GncSummary<YawEstimate> SolveYaw(const Subproblem& subproblem,
+                                 const QuatroOptions& options) {
+  return options.surrogate == SurrogateType::kGemanMcClure
+             ? SolveGnc<GemanMcClure>(subproblem, options.gnc)
+             : SolveGnc<TruncatedLeastSquares>(subproblem, options.gnc);
+}
+
+// Yaw by the way asked for, with the certificate. Nullopt if the TIMs hold
+// none.
+std::optional<double> FindYaw(const QuasiSo3& rotation,
+                              const QuatroOptions& options,
+                              QuatroSummary* summary) {
+  if (options.yaw_solver == YawSolver::kGnc) {
+    if (options.crosscheck) {
+      const CrossChecked<QuasiSo3> checked(rotation);
+      summary->gnc = SolveYaw(checked, options);
+      summary->crosscheck = checked.report();
+    } else {
+      summary->gnc = SolveYaw(rotation, options);
+    }
   }
-  std::sort(columns.begin(), columns.end());
-  return columns;
+  const Weights weights = Weights::Ones(rotation.NumMeasurements());
+  const Weights bounds =
+      Weights::Constant(weights.size(), rotation.noise_bound);
+  const auto exact =
+      EstimateExactYaw(rotation.source, rotation.target, weights, bounds);
+  const auto& gnc = summary->gnc.estimate;
+
+  std::optional<double> yaw;
+  if (gnc) yaw = gnc->target_from_source;
+  if (exact) {
+    YawCertificate certificate;
+    certificate.optimal_cost = exact->cost;
+    if (gnc) {
+      certificate.gnc_cost = TruncatedYawCost(
+          rotation.source, rotation.target, weights, bounds, *yaw);
+      certificate.gap = *certificate.gnc_cost - certificate.optimal_cost;
+    }
+    const bool misses =
+        !gnc || *certificate.gap > options.certificate_tolerance;
+    summary->certificate = certificate;
+    if (options.yaw_solver == YawSolver::kExact ||
+        (options.replace_missed_optimum && misses)) {
+      yaw = exact->target_from_source;
+      summary->is_yaw_exact = true;
+    }
+  }
+  if (yaw) {
+    YawEstimate estimate;
+    estimate.target_from_source = *yaw;
+    summary->num_rotation_inliers =
+        (rotation.SquaredResiduals(estimate).array() <= 1.0).count();
+  }
+  return yaw;
 }
 
 }  // namespace
 
 bool QuatroOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  if (!(noise_bound > 0.0)) {
-    problem << "noise_bound = " << noise_bound << ", must be > 0";
-  } else if (!(tim_bound_factor > 0.0)) {
-    problem << "tim_bound_factor = " << tim_bound_factor << ", must be > 0";
+  if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
+    problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
+  } else if (!(tim_bound_factor > 0.0 && std::isfinite(tim_bound_factor))) {
+    problem << "tim_bound_factor = " << tim_bound_factor
+            << ", must be > 0 and finite";
   } else if (num_random_tims < 1) {
     problem << "num_random_tims = " << num_random_tims << ", must be >= 1";
+  } else if (!(certificate_tolerance >= 0.0)) {
+    problem << "certificate_tolerance = " << certificate_tolerance
+            << ", must be >= 0";
   } else if (num_threads < 0) {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   } else {
-    ConsistencyOptions consistency;
-    consistency.max_tilt = max_tilt;
-    return consistency.IsValid(error) && gnc.IsValid(error);
+    return PruningFrom(*this).IsValid(error) && gnc.IsValid(error) &&
+           PolishFrom(*this).IsValid(error);
   }
   *error = problem.str();
   return false;
@@ -87,70 +128,96 @@ QuatroSummary SolveQuatro(const PointsRef& source,
                           const QuatroOptions& options) {
   CHECK_EQ(source.cols(), target.cols());
   QuatroSummary summary;
+  summary.num_needed = kNumNeeded;
   if (!options.IsValid(&summary.message)) return summary;
   if (!source.allFinite() || !target.allFinite()) {
     summary.message = "a matched point is not finite";
     return summary;
   }
 
-  Stopwatch stopwatch;
   const DistinctMatches matches = FindDistinctMatches(source, target);
   summary.num_distinct = matches.source.cols();
-  const std::vector<int> consistent =
-      FindConsistent(matches, options, &stopwatch, &summary.stage_times);
+  const std::vector<Eigen::Index> consistent = FindConsistent(
+      matches, PruningFrom(options), options.num_threads, &summary.stage_times);
   summary.num_consistent = static_cast<Eigen::Index>(consistent.size());
   summary.consistent = InputColumns(matches, consistent);
   const Points p = Columns(matches.source, consistent);
   const Points q = Columns(matches.target, consistent);
 
+  Stopwatch stopwatch;
   const std::vector<TimPair> pairs = MakeTimPairs(
       p.cols(), options.tim_layout, options.num_random_tims, options.seed);
   summary.num_tims = static_cast<Eigen::Index>(pairs.size());
   if (pairs.empty()) {
-    summary.termination = QuatroTermination::kInsufficient;
+    summary.termination = PoseTermination::kInsufficient;
     std::ostringstream message;
     message << "a heading needs two consistent matches, of "
             << summary.num_distinct << " there is " << summary.num_consistent;
     summary.message = message.str();
     return summary;
   }
-
-  const QuasiSo3 rotation{ComputeTims(p, pairs),
-                          ComputeTims(q, pairs),
-                          options.tim_bound_factor * options.noise_bound};
-  summary.gnc = options.surrogate == SurrogateType::kGemanMcClure
-                    ? SolveGnc<GemanMcClure>(rotation, options.gnc)
-                    : SolveGnc<TruncatedLeastSquares>(rotation, options.gnc);
+  const auto yaw = FindYaw({ComputeTims(p, pairs),
+                            ComputeTims(q, pairs),
+                            options.tim_bound_factor * options.noise_bound},
+                           options,
+                           &summary);
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
-  if (!summary.gnc.IsUsable()) {
-    summary.termination = QuatroTermination::kDegenerate;
+  if (!yaw) {
+    summary.termination = PoseTermination::kDegenerate;
     summary.message =
         "the consistent matches hold no heading: they are at one place or "
-        "above one another (" +
-        summary.gnc.message + ")";
+        "above one another";
     return summary;
   }
-  summary.num_rotation_inliers =
-      (summary.gnc.squared_residuals.array() <= 1.0).count();
+  summary.yaw = *yaw;
 
-  Rigid3 target_from_source;
-  target_from_source.rotation =
-      RotationZ(summary.gnc.estimate->target_from_source);
-  const auto translation = EstimateTranslation(
-      target_from_source.rotation * p, q, options.noise_bound);
-  target_from_source.translation = translation->target_from_source;
-  std::vector<int> inliers;
+  const Eigen::Matrix3d rotation = RotationZ(*yaw);
+  const auto translation =
+      EstimateTranslation(rotation * p, q, options.noise_bound);
+  Rigid3 pose{rotation, translation->target_from_source};
+  std::vector<Eigen::Index> inliers;
   for (std::size_t k = 0; k < consistent.size(); ++k) {
     if (translation->is_inlier[static_cast<Eigen::Index>(k)]) {
       inliers.push_back(consistent[k]);
     }
   }
+  summary.stage_times.push_back({"translation", stopwatch.Lap()});
+
+  if (options.recover_translation) {
+    pose = RecoverTranslation(
+        matches.source, matches.target, pose, options.noise_bound);
+    summary.stage_times.push_back({"recovery", stopwatch.Lap()});
+  }
+  if (options.polish) {
+    const PolishSummary polish = Polish(
+        matches.source, matches.target, consistent, pose, PolishFrom(options));
+    summary.polish_message = polish.message;
+    if (polish.is_polished) {
+      summary.unpolished_target_from_source = pose;
+      pose = polish.target_from_source;
+    }
+    summary.stage_times.push_back({"polish", stopwatch.Lap()});
+  }
+  if (options.recover_translation || options.polish) {
+    inliers =
+        FindAgreeing(matches.source, matches.target, pose, options.noise_bound);
+  }
+  if (options.crosscheck) {
+    CrosscheckPose(Columns(matches.source, inliers),
+                   Columns(matches.target, inliers),
+                   &summary.crosscheck);
+  }
   summary.num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
   summary.translation_inliers = InputColumns(matches, inliers);
-  summary.target_from_source = target_from_source;
-  summary.termination = QuatroTermination::kSolved;
+  summary.target_from_source = pose;
+  summary.termination = PoseTermination::kSolved;
   summary.message = "solved";
-  summary.stage_times.push_back({"translation", stopwatch.Lap()});
+  if (summary.certificate && summary.is_yaw_exact &&
+      options.yaw_solver == YawSolver::kGnc) {
+    summary.message =
+        "solved; graduated non-convexity missed the optimum, "
+        "the exact yaw is used";
+  }
   return summary;
 }
 

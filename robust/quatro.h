@@ -12,8 +12,13 @@
 //           -> yaw by graduated non-convexity (robust/gnc.h)
 //           -> translation axis by axis (solvers/translation.h)
 //
+// and, as options, three that the paper does not have: the exact yaw beside the
+// graduated one (solvers/exact_yaw.h), the translation once more over all
+// matches (robust/recovery.h), and the pose in SE(3) on the inliers
+// (robust/polish.h).
+//
 // One difference, hence two consistent matches, is enough for a yaw. Roll and
-// pitch are left at zero.
+// pitch are zero unless the polish finds them.
 //
 // The answer depends on the set of matches: neither on their order nor on how
 // often one is repeated, bit for bit.
@@ -26,24 +31,22 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "features/stopwatch.h"
 #include "features/types.h"
 #include "robust/consistency_graph.h"
 #include "robust/gnc.h"
+#include "robust/polish.h"
+#include "robust/pose_summary.h"
+#include "robust/pruning.h"
 #include "robust/tims.h"
-#include "solvers/rigid3.h"
 #include "solvers/yaw.h"
 
 namespace quatro {
 
-enum class Pruning {
-  kCliqueHeuristic,  // The paper's MCIS-heuristic.
-  kMaxCore,
-  kNone,
+enum class YawSolver {
+  kGnc,    // Graduated non-convexity, the paper's.
+  kExact,  // The global optimum of the truncated problem.
 };
 
 enum class SurrogateType { kTruncatedLeastSquares, kGemanMcClure };
@@ -61,12 +64,29 @@ struct QuatroOptions {
   double max_tilt = 0.035;  // [rad], for ConsistencyTest::kPlanarAndHeight.
 
   Pruning pruning = Pruning::kCliqueHeuristic;
+  double clique_time_limit_seconds = 1.0;  // For Pruning::kExactClique.
 
   TimLayout tim_layout = TimLayout::kRing;
   Eigen::Index num_random_tims = 5000;  // For TimLayout::kRandom.
 
+  YawSolver yaw_solver = YawSolver::kGnc;
   SurrogateType surrogate = SurrogateType::kTruncatedLeastSquares;
   GncOptions gnc;
+
+  // Take the exact yaw where the graduated one costs more than the optimum by
+  // this; the certificate tells in any case.
+  bool replace_missed_optimum = true;
+  double certificate_tolerance = 1e-6;
+
+  bool recover_translation = true;
+
+  bool polish = true;
+  double polish_max_tilt = 0.3;           // [rad]
+  double polish_max_rotation_std = 0.01;  // [rad]
+
+  // Solve every weighted subproblem by Ceres too and report the largest
+  // difference. Slow.
+  bool crosscheck = false;
 
   std::uint64_t seed = 0;
   int num_threads = 1;  // 0: all cores. Never changes the answer.
@@ -75,35 +95,13 @@ struct QuatroOptions {
   bool IsValid(std::string* error) const;
 };
 
-enum class QuatroTermination {
-  kInvalidInput,  // Options out of range or points that are not finite.
-  kInsufficient,  // Fewer than two matches hold together: no difference left.
-  kDegenerate,    // The differences hold no heading, e.g. all are vertical.
-  kSolved,
-};
-
-struct QuatroSummary {
-  QuatroTermination termination = QuatroTermination::kInvalidInput;
-  std::string message = "SolveQuatro was not called.";
-
-  // Set iff termination is kSolved; whether it is right is another question
-  // (robust/verdict.h).
-  std::optional<Rigid3> target_from_source;
-
-  // Columns of the matches given, in ascending order. Copies of one match are
-  // kept or left out together, and count once.
-  std::vector<Eigen::Index> consistent;           // After pruning.
-  std::vector<Eigen::Index> translation_inliers;  // Of those, within the bound.
-  Eigen::Index num_distinct = 0;
-  Eigen::Index num_consistent = 0;
-  Eigen::Index num_tims = 0;
-  Eigen::Index num_rotation_inliers = 0;  // TIMs within their bound.
-  Eigen::Index num_translation_inliers = 0;
-
+struct QuatroSummary : PoseSummary {
+  // Of the yaw; not run for YawSolver::kExact.
   GncSummary<YawEstimate> gnc;
-  std::vector<StageTime> stage_times;
 
-  bool IsUsable() const { return target_from_source.has_value(); }
+  double yaw = 0.0;            // Before the polish [rad].
+  bool is_yaw_exact = false;   // Taken from the sweep, not from gnc.
+  std::string polish_message;  // What came of the polish.
 };
 
 // Column i of `source` is matched with column i of `target` [m].

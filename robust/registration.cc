@@ -42,8 +42,8 @@ DescribedCloud Describe(const Points& points,
 
 bool FrontEndOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  if (!(voxel_size > 0.0)) {
-    problem << "voxel_size = " << voxel_size << ", must be > 0";
+  if (!(voxel_size > 0.0 && std::isfinite(voxel_size))) {
+    problem << "voxel_size = " << voxel_size << ", must be > 0 and finite";
   } else if (!(normal_radius > 0.0)) {
     problem << "normal_radius = " << normal_radius << ", must be > 0";
   } else if (!(fpfh_radius >= normal_radius)) {
@@ -121,24 +121,26 @@ RegistrationSummary Register(const PointCloud& source,
   QuatroOptions quatro = options.quatro;
   quatro.num_threads = options.num_threads;
   quatro.seed = options.seed;
-  summary.quatro =
-      SolveQuatro(summary.matched_source, summary.matched_target, quatro);
+  summary.solution =
+      options.solver
+          ? options.solver(summary.matched_source, summary.matched_target)
+          : SolveQuatro(summary.matched_source, summary.matched_target, quatro);
   stopwatch.Lap();
-  for (const StageTime& time : summary.quatro.stage_times) {
+  for (const StageTime& time : summary.solution.stage_times) {
     summary.stage_times.push_back(time);
     if (options.progress) options.progress(time);
   }
-  summary.verdict = JudgeQuatro(summary.matched_source,
-                                summary.matched_target,
-                                summary.quatro,
-                                quatro.noise_bound,
-                                options.verdict);
-  if (summary.quatro.IsUsable()) {
+  summary.verdict = JudgeSummary(summary.matched_source,
+                                 summary.matched_target,
+                                 summary.solution,
+                                 quatro.noise_bound,
+                                 options.verdict);
+  if (summary.solution.IsUsable()) {
     // A voxel's mean may be off by about its size; two of them by more.
     AddOverlap(
         MeasureStructureOverlap({source_cloud.tree, source_cloud.normals},
                                 {target_cloud.tree, target_cloud.normals},
-                                *summary.quatro.target_from_source,
+                                *summary.solution.target_from_source,
                                 5.0 / 3.0 * voxel_size,
                                 options.num_threads),
         options.verdict,

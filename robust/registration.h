@@ -20,6 +20,7 @@
 #include "features/point_cloud.h"
 #include "features/stopwatch.h"
 #include "features/types.h"
+#include "robust/pose_summary.h"
 #include "robust/quatro.h"
 #include "robust/verdict.h"
 #include "solvers/rigid3.h"
@@ -37,9 +38,16 @@ struct FrontEndOptions {
   bool IsValid(std::string* error) const;
 };
 
+using PoseSolver = std::function<PoseSummary(const PointsRef& source,
+                                             const PointsRef& target)>;
+
 struct RegistrationOptions {
   FrontEndOptions front_end;
   QuatroOptions quatro;
+
+  // Another estimator from matched points in place of Quatro.
+  PoseSolver solver;
+
   VerdictOptions verdict;
   int num_threads = 1;  // 0: all cores. Never changes the answer.
   std::uint64_t seed = 0;
@@ -65,13 +73,13 @@ struct RegistrationSummary {
   Eigen::Index num_target_voxels = 0;
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  QuatroSummary quatro;
+  PoseSummary solution;
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 
   // Set iff there is an answer; whether it can be relied on says the verdict.
   const std::optional<Rigid3>& target_from_source() const {
-    return quatro.target_from_source;
+    return solution.target_from_source;
   }
 };
 

@@ -152,17 +152,20 @@ Verdict JudgeConsensus(const PointsRef& source,
   return verdict;
 }
 
-Verdict JudgeQuatro(const PointsRef& source,
-                    const PointsRef& target,
-                    const QuatroSummary& summary,
-                    double noise_bound,
-                    const VerdictOptions& options) {
+Verdict JudgeSummary(const PointsRef& source,
+                     const PointsRef& target,
+                     const PoseSummary& summary,
+                     double noise_bound,
+                     const VerdictOptions& options) {
   if (summary.IsUsable()) {
-    return JudgeConsensus(
-        source, target, *summary.target_from_source, noise_bound, options);
+    return JudgeConsensus(summary.scale * source,
+                          target,
+                          *summary.target_from_source,
+                          noise_bound,
+                          options);
   }
   Verdict verdict;
-  verdict.status = summary.termination == QuatroTermination::kDegenerate
+  verdict.status = summary.termination == PoseTermination::kDegenerate
                        ? Status::kDegenerate
                        : Status::kInsufficient;
   verdict.reason = summary.message;

@@ -27,7 +27,7 @@
 #include <string>
 
 #include "features/types.h"
-#include "robust/quatro.h"
+#include "robust/pose_summary.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -75,12 +75,12 @@ Verdict JudgeConsensus(const PointsRef& source,
                        double noise_bound,
                        const VerdictOptions& options);
 
-// The same for a run of Quatro, also one without an answer.
-Verdict JudgeQuatro(const PointsRef& source,
-                    const PointsRef& target,
-                    const QuatroSummary& summary,
-                    double noise_bound,
-                    const VerdictOptions& options);
+// The same for what an estimator reports, also without an answer.
+Verdict JudgeSummary(const PointsRef& source,
+                     const PointsRef& target,
+                     const PoseSummary& summary,
+                     double noise_bound,
+                     const VerdictOptions& options);
 
 // Takes the geometric evidence into a verdict: too small an overlap turns
 // registered into ambiguous. No overlap to speak of changes nothing.

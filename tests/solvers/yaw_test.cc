@@ -4,7 +4,6 @@
 #include "solvers/yaw.h"
 
 #include <ceres/ceres.h>
-#include <ceres/manifold_test_utils.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -157,20 +156,6 @@ TEST_F(YawTest, AgreesWithCeresOnTheUnitCircle) {
       (cost_at(a + h) - 2.0 * cost_at(a) + cost_at(a - h)) / (h * h);
   EXPECT_NEAR(
       closed_form->curvature, numeric_curvature, 1e-5 * numeric_curvature);
-}
-
-TEST(UnitCircleManifold, InvariantsHold) {
-  using namespace ceres;  // Ceres 2.1's macro names its matchers unqualified.
-  const UnitCircleManifold manifold;
-  const auto on_circle = [](double a) -> Vector {
-    return Eigen::Vector2d(std::cos(a), std::sin(a));
-  };
-  for (const double angle : {-3.1, -1.0, 0.0, 0.4, 2.5}) {
-    const Vector x = on_circle(angle);
-    const Vector y = on_circle(angle + 2.0);
-    const Vector delta = Vector::Constant(1, 0.9);
-    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-9);
-  }
 }
 
 }  // namespace

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/methods.h"
+
+#include "robust/arc_consensus.h"
+#include "robust/teaser.h"
+
+namespace quatro {
+namespace {
+
+// Matches above which a graph of them no longer pays.
+constexpr Eigen::Index kMaxGraphMatches = 20000;
+
+PoseSolver MakeQuatro(const QuatroOptions& options) {
+  return [options](const PointsRef& source, const PointsRef& target) {
+    return SolveQuatro(source, target, options);
+  };
+}
+
+PoseSolver MakeQuatroExact(QuatroOptions options) {
+  options.yaw_solver = YawSolver::kExact;
+  return MakeQuatro(options);
+}
+
+PoseSolver MakeArcConsensus(const QuatroOptions& options) {
+  ArcConsensusOptions arc;
+  arc.noise_bound = options.noise_bound;
+  arc.max_tilt = options.max_tilt;
+  arc.seed = options.seed;
+  arc.num_threads = options.num_threads;
+  return [arc](const PointsRef& source, const PointsRef& target) {
+    return SolveArcConsensus(source, target, arc);
+  };
+}
+
+PoseSolver MakeTeaser(const QuatroOptions& options) {
+  TeaserOptions teaser;
+  teaser.noise_bound = options.noise_bound;
+  teaser.crosscheck = options.crosscheck;
+  teaser.seed = options.seed;
+  teaser.num_threads = options.num_threads;
+  return [teaser](const PointsRef& source, const PointsRef& target) {
+    return SolveTeaser(source, target, teaser);
+  };
+}
+
+PoseSolver MakeAuto(const QuatroOptions& options) {
+  const PoseSolver few = MakeQuatro(options);
+  const PoseSolver many = MakeArcConsensus(options);
+  return [few, many](const PointsRef& source, const PointsRef& target) {
+    return (source.cols() > kMaxGraphMatches ? many : few)(source, target);
+  };
+}
+
+struct Method {
+  const char* name;
+  const char* description;
+  PoseSolver (*make)(const QuatroOptions& options);
+};
+
+constexpr Method kMethods[] = {
+    {"auto", "quatro; above 20,000 matches arc_consensus", MakeAuto},
+    {"quatro", "clique, yaw by GNC, translation by axis", MakeQuatro},
+    {"quatro_exact",
+     "the same with the yaw's global optimum in place of GNC",
+     [](const QuatroOptions& options) { return MakeQuatroExact(options); }},
+    {"arc_consensus",
+     "no graph: random pairs, exact yaw, translation by axis",
+     MakeArcConsensus},
+    {"teaser",
+     "TEASER++: exact clique, SO(3) by GNC, translation by axis",
+     MakeTeaser},
+};
+
+}  // namespace
+
+std::vector<std::string> MethodNames() {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) names.emplace_back(method.name);
+  return names;
+}
+
+std::string DescribeMethods() {
+  std::string text;
+  for (const Method& method : kMethods) {
+    std::string name = method.name;
+    name.resize(16, ' ');
+    text += name + method.description + "\n";
+  }
+  return text;
+}
+
+PoseSolver MakeSolver(const std::string& name,
+                      const QuatroOptions& options,
+                      std::string* error) {
+  for (const Method& method : kMethods) {
+    if (name == method.name) return method.make(options);
+  }
+  *error = "--method=" + name + ", must be one of";
+  for (const Method& method : kMethods) {
+    *error += std::string(" ") + method.name;
+  }
+  return nullptr;
+}
+
+}  // namespace quatro

@@ -1,0 +1,290 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Runs quatro_register over a list of scan pairs and measures how far off it is.
+
+    run_pairs.py --pairs=pairs.csv --output=results.csv [-- FLAGS OF quatro_register]
+
+The list has the columns source and target, paths relative to its folder, and
+optionally set. With tx,ty,tz,qx,qy,qz,qw a pair's pose is known,
+
+    p_in_target = R(q) p_in_source + t,
+
+and the errors of an estimate are the angle of R_true^T R, the difference of the
+two yaws, and |t - t_true|. Without them the scans share no place, and the right
+answer is not to register them.
+
+The summary goes to standard output, progress to standard error.
+Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+"""
+import argparse
+import collections
+import concurrent.futures
+import csv
+import io
+import json
+import math
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
+COUNTS = ("source_voxels", "target_voxels", "correspondences", "clique", "rotation_inliers",
+          "translation_inliers", "agreeing")
+# Within so many metres and degrees (the whole rotation), registered or not.
+SUCCESS = {"success_2m_10deg": (2.0, 10.0), "success_0.6m_5deg": (0.6, 5.0),
+           "success_0.3m_1deg": (0.3, 1.0)}
+RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "yaw_error_deg",
+                  "translation_error_m", *SUCCESS, "wrong_but_registered", *COUNTS, "total_ms")
+
+Pair = collections.namedtuple("Pair", "set source target pose")  # pose: (R, t) or None
+
+
+class BadInput(Exception):
+    pass
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(message)
+
+
+def rotation_from_quaternion(x, y, z, w):
+    return [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+
+
+def angle_between_deg(a, b):
+    """Angle of a^T b; by its skew part, so that small angles keep their digits."""
+    c = [[sum(a[k][i] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+    sine = math.hypot(c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1])
+    return math.degrees(math.atan2(sine, c[0][0] + c[1][1] + c[2][2] - 1.0))
+
+
+def yaw_deg(rotation):
+    return math.degrees(math.atan2(rotation[1][0], rotation[0][0]))
+
+
+def parse_pose(row, where):
+    values = []
+    for name in POSE:
+        try:
+            values.append(float(row[name]))
+        except (TypeError, ValueError):
+            raise BadInput(f"{where}, column {name}: {row[name]!r} is not a number") from None
+        if not math.isfinite(values[-1]):
+            raise BadInput(f"{where}, column {name}: {row[name]!r} is not finite")
+    norm = math.hypot(*values[3:])
+    if abs(norm - 1.0) > 1e-3:
+        raise BadInput(f"{where}: the quaternion has length {norm:g}, must be 1")
+    return rotation_from_quaternion(*(q / norm for q in values[3:])), values[:3]
+
+
+def read_pairs(path, excluded):
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file)
+            rows = [(reader.line_num, row) for row in reader]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise BadInput(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+    names = reader.fieldnames or []
+    for name in ("source", "target"):
+        if name not in names:
+            raise BadInput(f"{path}: there is no column {name}")
+    given = [name for name in POSE if name in names]
+    if given and len(given) < len(POSE):
+        missing = ",".join(name for name in POSE if name not in names)
+        raise BadInput(f"{path}: of the pose there is no column {missing}")
+
+    folder = pathlib.Path(path).parent
+    pairs = []
+    for line, row in rows:
+        where = f"{path}: line {line}"
+        if row.get("set", "") in excluded and "set" in names:
+            continue
+        for name in ("source", "target"):
+            if not row[name] or not (folder / row[name]).is_file():
+                raise BadInput(f"{where}, column {name}: there is no file {row[name]!r}")
+        pairs.append(Pair(row.get("set") or pathlib.Path(path).stem, row["source"], row["target"],
+                          parse_pose(row, where) if given else None))
+    unknown = set(excluded) - {row.get("set") for _, row in rows}
+    if unknown:
+        raise BadInput(f"--exclude={min(unknown)}: {path} has no such set")
+    if not pairs:
+        raise BadInput(f"{path}: there are no pairs")
+    return pairs
+
+
+def register(pair, folder, program, flags):
+    command = [program, f"--source={folder / pair.source}", f"--target={folder / pair.target}",
+               *flags]
+    try:
+        run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                             check=False)
+    except OSError as error:
+        raise BadInput(f"{program}: {error.strerror}") from None
+    if run.returncode in (0, 1):
+        try:
+            return json.loads(run.stdout)
+        except json.JSONDecodeError:
+            raise BadInput(f"{program}: its standard output is not JSON; "
+                           "is there a --json among its flags?") from None
+    if run.returncode == 2:
+        raise BadInput((run.stderr.strip() or f"{program}: exit code 2").splitlines()[-1])
+    return {"status": f"crashed ({run.returncode})", "target_from_source": None}
+
+
+def measure(pair, report):
+    result = dict.fromkeys(RESULT_COLUMNS, "")
+    result.update(set=pair.set, source=pair.source, target=pair.target, status=report["status"])
+    registered = report["status"] == "registered"
+    counts = report.get("counts", {})
+    result.update({name: counts.get(name, "") for name in COUNTS})
+    result["total_ms"] = report.get("timings_ms", {}).get("total", "")
+    if pair.pose is None:
+        result["wrong_but_registered"] = int(registered)
+        return result
+    result.update(dict.fromkeys(SUCCESS, 0))
+    matrix = report["target_from_source"]
+    if matrix is not None:
+        true_rotation, true_translation = pair.pose
+        rotation_error = angle_between_deg(true_rotation, matrix)
+        yaw_error = abs(math.remainder(yaw_deg(matrix) - yaw_deg(true_rotation), 360.0))
+        translation_error = math.dist([row[3] for row in matrix[:3]], true_translation)
+        result.update(rotation_error_deg=f"{rotation_error:.4f}", yaw_error_deg=f"{yaw_error:.4f}",
+                      translation_error_m=f"{translation_error:.4f}")
+        for name, (metres, degrees) in SUCCESS.items():
+            result[name] = int(translation_error <= metres and rotation_error <= degrees)
+    result["wrong_but_registered"] = int(registered and not result["success_2m_10deg"])
+    return result
+
+
+def run_all(pairs, folder, program, flags, num_jobs):
+    start = time.monotonic()
+    results = [None] * len(pairs)
+    with concurrent.futures.ThreadPoolExecutor(num_jobs) as pool:
+        futures = {pool.submit(register, pair, folder, program, flags): i
+                   for i, pair in enumerate(pairs)}
+        try:
+            for num_done, future in enumerate(concurrent.futures.as_completed(futures), 1):
+                i = futures[future]
+                results[i] = result = measure(pairs[i], future.result())
+                elapsed = time.monotonic() - start
+                left = round(elapsed / num_done * (len(pairs) - num_done))
+                errors = (f", {result['translation_error_m']} m {result['rotation_error_deg']} deg"
+                          if result["translation_error_m"] else "")
+                print(f"{num_done}/{len(pairs)} {result['source']} -> {result['target']}: "
+                      f"{result['status']}{errors}; {left // 60}:{left % 60:02d} left",
+                      file=sys.stderr, flush=True)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return results
+
+
+def format_results(results):
+    text = io.StringIO()
+    writer = csv.DictWriter(text, RESULT_COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(results)
+    return text.getvalue()
+
+
+def format_summary(results):
+    """One line per set, and one for all."""
+    rows = [("set", "pairs", "registered", *(f"{m:g} m {d:g} deg" for m, d in SUCCESS.values()),
+             "wrong", "median ms")]
+    by_set = collections.defaultdict(list)
+    for result in results:
+        by_set[result["set"]].append(result)
+    for name, group in [*by_set.items(), ("total", results)]:
+        times = [result["total_ms"] for result in group if result["total_ms"] != ""]
+        # Where there is no pose to meet, there is no success to count.
+        successes = ["-" if all(result[key] == "" for result in group)
+                     else str(sum(result[key] or 0 for result in group)) for key in SUCCESS]
+        rows.append((name, str(len(group)),
+                     str(sum(result["status"] == "registered" for result in group)), *successes,
+                     str(sum(result["wrong_but_registered"] for result in group)),
+                     f"{statistics.median(times):.0f}" if times else "-"))
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return "".join(
+        "  ".join([row[0].ljust(widths[0])] +
+                  [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]) + "\n"
+        for row in rows) + "wrong: registered, but not within 2 m and 10 deg\n"
+
+
+def check_writable(path):
+    if os.path.isdir(path):
+        raise BadInput(f"{path}: is a directory, must be a file to write")
+    folder = os.path.dirname(path) or "."
+    if not os.path.isdir(folder):
+        raise BadInput(f"{path}: there is no folder {folder}")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise BadInput(f"{path}: may not write into folder {folder}")
+
+
+def write_atomically(path, text):
+    try:
+        descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path) or ".",
+                                                 prefix=os.path.basename(path) + ".tmp.")
+        try:
+            with open(descriptor, "w", encoding="utf-8", newline="") as file:
+                file.write(text)
+                os.fchmod(file.fileno(), 0o644)
+            os.replace(temporary, path)
+        except BaseException:
+            os.unlink(temporary)
+            raise
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror}") from None
+
+
+def parse_args(args):
+    parser = Parser(prog="run_pairs.py", description=__doc__, allow_abbrev=False,
+                    formatter_class=argparse.RawDescriptionHelpFormatter,
+                    usage="run_pairs.py --pairs=FILE [options] [-- FLAGS OF quatro_register]")
+    parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
+    parser.add_argument("--output", metavar="FILE.csv", help="file for one line per pair")
+    default = pathlib.Path(__file__).resolve().parent.parent / "build" / "bin" / "quatro_register"
+    parser.add_argument("--program", default=str(default), metavar="FILE",
+                        help="quatro_register (default: that in build/bin)")
+    parser.add_argument("--exclude", action="append", default=[], metavar="SET",
+                        help="leave out this set; may be repeated")
+    parser.add_argument("--jobs", default="1", metavar="N",
+                        help="pairs at a time (default: 1; more make the times longer)")
+    split = args.index("--") if "--" in args else len(args)
+    options = parser.parse_args(args[:split])
+    if not re.fullmatch("[1-9][0-9]{0,3}", options.jobs):
+        raise BadInput(f"--jobs={options.jobs}: must be a whole number > 0")
+    return options, args[split + 1:]
+
+
+def main(args):
+    options, flags = parse_args(args)
+    if options.output:
+        check_writable(options.output)
+    pairs = read_pairs(options.pairs, options.exclude)
+    if not os.access(options.program, os.X_OK) or os.path.isdir(options.program):
+        raise BadInput(f"{options.program}: is not a program; build it or name it by --program")
+    results = run_all(pairs, pathlib.Path(options.pairs).parent, options.program, flags,
+                      int(options.jobs))
+    if options.output:
+        write_atomically(options.output, format_results(results))
+    sys.stdout.write(format_summary(results))
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except BadInput as problem:
+        print(f"run_pairs.py: {problem}", file=sys.stderr)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        print("run_pairs.py: interrupted", file=sys.stderr)
+        sys.exit(130)

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What every estimator of a pose from matched points reports.
+
+#ifndef QUATRO_ROBUST_POSE_SUMMARY_H_
+#define QUATRO_ROBUST_POSE_SUMMARY_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/stopwatch.h"
+#include "solvers/rigid3.h"
+
+namespace quatro {
+
+enum class PoseTermination {
+  kInvalidInput,  // Options out of range or points that are not finite.
+  kInsufficient,  // Fewer consistent matches than the estimator needs.
+  kDegenerate,    // Enough of them, but they do not hold the pose.
+  kSolved,
+};
+
+// How far a graduated answer is from the global optimum of its own problem, the
+// truncated least squares over the yaw of the TIMs (solvers/exact_yaw.h).
+struct YawCertificate {
+  std::optional<double> gnc_cost;  // Nothing if GNC gave no answer.
+  double optimal_cost = 0.0;
+  // gnc_cost - optimal_cost, never negative but for rounding.
+  std::optional<double> gap;
+};
+
+// The largest disagreement between a closed form and its Ceres twin in a run.
+struct CrosscheckReport {
+  Eigen::Index num_subproblems = 0;
+  double max_rotation_difference = 0.0;     // [rad]
+  double max_translation_difference = 0.0;  // [m]
+};
+
+struct PoseSummary {
+  PoseTermination termination = PoseTermination::kInvalidInput;
+  std::string message = "no estimator was called";
+
+  // Set iff termination is kSolved; whether it is right is another question
+  // (robust/verdict.h).
+  std::optional<Rigid3> target_from_source;
+
+  // The answer before it was polished in SE(3), if it was.
+  std::optional<Rigid3> unpolished_target_from_source;
+
+  double scale = 1.0;  // Of the target over the source; 1 unless estimated.
+
+  // Consistent matches that this estimator needs.
+  int num_needed = 0;
+
+  // Columns of the matches given, in ascending order. Copies of one match are
+  // kept or left out together, and count once.
+  std::vector<Eigen::Index> consistent;           // After pruning.
+  std::vector<Eigen::Index> translation_inliers;  // Within the noise bound.
+  Eigen::Index num_distinct = 0;
+  Eigen::Index num_consistent = 0;
+  Eigen::Index num_tims = 0;
+  Eigen::Index num_rotation_inliers = 0;  // TIMs within their bound.
+  Eigen::Index num_translation_inliers = 0;
+
+  std::optional<YawCertificate> certificate;
+  std::optional<CrosscheckReport> crosscheck;
+  std::vector<StageTime> stage_times;
+
+  bool IsUsable() const { return target_from_source.has_value(); }
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_POSE_SUMMARY_H_

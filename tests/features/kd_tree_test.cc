@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/kd_tree.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/random_problems.h"
+
+namespace quatro {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+double SquaredDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d d = a - b;
+  return d.x() * d.x() + d.y() * d.y() + d.z() * d.z();
+}
+
+std::vector<Neighbor> BruteForceWithinRadius(const Points& points,
+                                             const Eigen::Vector3d& query,
+                                             double radius) {
+  std::vector<Neighbor> neighbors;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double d2 = SquaredDistance(query, points.col(i));
+    if (d2 <= radius * radius) neighbors.push_back({i, d2});
+  }
+  return neighbors;
+}
+
+std::vector<double> BruteForceNearestDistances(const Points& points,
+                                               const Eigen::Vector3d& query,
+                                               int k) {
+  std::vector<double> d2;
+  for (const auto point : points.colwise()) {
+    d2.push_back(SquaredDistance(query, point));
+  }
+  std::sort(d2.begin(), d2.end());
+  d2.resize(std::min(d2.size(), static_cast<std::size_t>(k)));
+  return d2;
+}
+
+// `size` points on each side of a grid, `step` [m] apart. Steps that are not
+// powers of two make distances that tie but for rounding.
+Points Grid(int size, double step) {
+  Points points(3, size * size * size);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    points.col(i) << static_cast<double>(i / size / size),
+        static_cast<double>(i / size % size), static_cast<double>(i % size);
+  }
+  return step * points;
+}
+
+// Ten tight clusters far from one another.
+Points Clusters(Eigen::Index n, std::uint64_t seed) {
+  const Points centers = RandomPoints(10, 100.0, seed);
+  Points points = RandomPoints(n, 0.01, seed + 1);
+  for (Eigen::Index i = 0; i < n; ++i) points.col(i) += centers.col(i % 10);
+  return points;
+}
+
+struct NamedCloud {
+  std::string name;
+  Points points;
+};
+
+std::vector<NamedCloud> Clouds() {
+  return {
+      {"wide", RandomPoints(1000, 100.0, 1)},
+      {"clustered", Clusters(1000, 2)},
+      {"street", RandomStreet(1000, 0.02, 3)},
+      {"grid of integers", Grid(8, 1.0)},
+      {"grid of tenths", Grid(8, 0.1)},
+      {"flat", RandomPlane(500, 10.0, 4).points},
+      {"far away", RandomPoints(500, 10.0, 5).array() + 1e7},
+      {"identical", Eigen::Vector3d(1.0, 2.0, 3.0).replicate(1, 300)},
+      {"five", RandomPoints(5, 1.0, 6)},
+      {"one", RandomPoints(1, 1.0, 7)},
+      {"none", Points(3, 0)},
+  };
+}
+
+// Points of the cloud, places between them and places well outside.
+Points Queries(const Points& points) {
+  const Eigen::Index n = points.cols();
+  if (n == 0) return RandomPoints(5, 1.0, 8);
+  Points queries(3, 60);
+  Random random(9);
+  for (Eigen::Index i = 0; i < queries.cols(); ++i) {
+    const auto a = static_cast<Eigen::Index>(random.Below(n));
+    const auto b = static_cast<Eigen::Index>(random.Below(n));
+    const double t = static_cast<double>(i % 3);
+    queries.col(i) = points.col(a) + t * (points.col(b) - points.col(a));
+    if (i % 4 == 3) queries.col(i) += RandomPoints(1, 1.0, 10).col(0);
+  }
+  return queries;
+}
+
+// A handful of fixed radii, and those that reach points of the cloud exactly.
+std::vector<double> Radii(const Points& points, const Eigen::Vector3d& query) {
+  std::vector<double> radii = {0.0, 0.01, 0.1, 0.3, 1.0, 3.0, 100.0};
+  for (Eigen::Index i = 0; i < points.cols(); i += 1 + points.cols() / 20) {
+    radii.push_back(std::sqrt(SquaredDistance(query, points.col(i))));
+  }
+  return radii;
+}
+
+TEST(KdTree, WithinRadiusIsTheClosedBallInOrderOfIndex) {
+  for (const auto& [name, points] : Clouds()) {
+    SCOPED_TRACE(name);
+    const KdTree tree(points);
+    const Points queries = Queries(points);
+    for (const auto query : queries.colwise()) {
+      for (const double radius : Radii(points, query)) {
+        const auto found = tree.WithinRadius(query, radius);
+        const auto expected = BruteForceWithinRadius(points, query, radius);
+        ASSERT_EQ(found.size(), expected.size())
+            << "radius " << radius << " about " << query.transpose();
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          ASSERT_EQ(found[i].index, expected[i].index);
+          ASSERT_EQ(found[i].squared_distance, expected[i].squared_distance);
+        }
+      }
+    }
+  }
+}
+
+TEST(KdTree, PointsExactlyAtTheRadiusAreWithinIt) {
+  // The radius is such that its square is the point's distance, bit for bit;
+  // wide clouds and the corners of grids tempt a tree to prune too early.
+  int num_checked = 0;
+  for (const auto& [name, points] : Clouds()) {
+    SCOPED_TRACE(name);
+    const KdTree tree(points);
+    const Points queries = Queries(points);
+    for (const auto query : queries.colwise()) {
+      for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        const double d2 = SquaredDistance(query, points.col(i));
+        const double radius = std::sqrt(d2);
+        if (radius * radius != d2) continue;
+        if (++num_checked % 5 != 0) continue;
+        const auto found = tree.WithinRadius(query, radius);
+        ASSERT_TRUE(std::any_of(
+            found.begin(),
+            found.end(),
+            [&](const Neighbor& neighbor) { return neighbor.index == i; }))
+            << "radius " << radius << " about " << query.transpose();
+      }
+    }
+  }
+  EXPECT_GT(num_checked, 10000);
+}
+
+TEST(KdTree, NearestAreTheNearestFirst) {
+  for (const auto& [name, points] : Clouds()) {
+    SCOPED_TRACE(name);
+    const KdTree tree(points);
+    const Points queries = Queries(points);
+    for (const auto query : queries.colwise()) {
+      for (const int k : {1, 2, 3, 10, 2000}) {
+        const auto found = tree.Nearest(query, k);
+        // Of equal distances any may come first: indices are not compared.
+        const auto expected = BruteForceNearestDistances(points, query, k);
+        ASSERT_EQ(found.size(), expected.size()) << "k = " << k;
+        std::vector<Eigen::Index> indices;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          ASSERT_DOUBLE_EQ(found[i].squared_distance, expected[i])
+              << "number " << i << " of " << k;
+          ASSERT_EQ(found[i].squared_distance,
+                    SquaredDistance(query, points.col(found[i].index)));
+          indices.push_back(found[i].index);
+        }
+        std::sort(indices.begin(), indices.end());
+        ASSERT_EQ(std::adjacent_find(indices.begin(), indices.end()),
+                  indices.end())
+            << "a point came twice";
+      }
+    }
+  }
+}
+
+TEST(KdTree, NearestIsEmptyForNoneAskedFor) {
+  const KdTree tree(RandomPoints(10, 1.0, 1));
+  EXPECT_THAT(tree.Nearest(Eigen::Vector3d::Zero(), 0), IsEmpty());
+}
+
+TEST(KdTree, EmptyTreeFindsNothing) {
+  const KdTree tree(Points(3, 0));
+  EXPECT_EQ(tree.points().cols(), 0);
+  EXPECT_THAT(tree.WithinRadius(Eigen::Vector3d::Zero(), 1.0), IsEmpty());
+  EXPECT_THAT(tree.Nearest(Eigen::Vector3d::Zero(), 3), IsEmpty());
+  const Neighborhoods none = FindNeighborhoods(tree, 1.0, 2);
+  EXPECT_EQ(none.size(), 0);
+  EXPECT_THAT(none.row_begin, ElementsAre(0));
+  EXPECT_THAT(none.index, IsEmpty());
+}
+
+TEST(KdTree, UnboundedRadiusFindsEveryPoint) {
+  const KdTree tree(RandomPoints(100, 10.0, 1));
+  EXPECT_THAT(tree.WithinRadius(Eigen::Vector3d::Zero(),
+                                std::numeric_limits<double>::infinity()),
+              SizeIs(100));
+}
+
+TEST(KdTree, MovingTheTreeKeepsItsPoints) {
+  const Points points = RandomPoints(100, 1.0, 1);
+  KdTree tree(points);
+  KdTree moved(std::move(tree));
+  KdTree assigned(RandomPoints(3, 1.0, 2));
+  assigned = std::move(moved);
+  EXPECT_EQ(assigned.points(), points);
+  EXPECT_EQ(assigned.Nearest(points.col(42), 1).front().index, 42);
+}
+
+TEST(FindNeighborhoods, RowsAreTheBallsAboutEachPoint) {
+  for (const auto& [name, points] : Clouds()) {
+    SCOPED_TRACE(name);
+    const KdTree tree(points);
+    for (const double radius : {0.05, 0.1, 1.0, 10.0}) {
+      const Neighborhoods rows = FindNeighborhoods(tree, radius, 1);
+      ASSERT_EQ(rows.size(), points.cols());
+      ASSERT_EQ(rows.row_begin.front(), 0);
+      ASSERT_EQ(rows.row_begin.back(),
+                static_cast<std::int64_t>(rows.index.size()));
+      ASSERT_EQ(rows.index.size(), rows.squared_distance.size());
+      for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        const auto row = tree.WithinRadius(points.col(i), radius);
+        auto k = static_cast<std::size_t>(
+            rows.row_begin[static_cast<std::size_t>(i)]);
+        ASSERT_EQ(static_cast<std::int64_t>(k + row.size()),
+                  rows.row_begin[static_cast<std::size_t>(i + 1)]);
+        bool has_itself = false;
+        for (const Neighbor& neighbor : row) {
+          ASSERT_EQ(rows.index[k], neighbor.index);
+          ASSERT_EQ(rows.squared_distance[k],
+                    static_cast<float>(neighbor.squared_distance));
+          has_itself |= neighbor.index == i;
+          ++k;
+        }
+        ASSERT_TRUE(has_itself) << "point " << i;
+      }
+    }
+  }
+}
+
+TEST(FindNeighborhoods, DoesNotDependOnTheNumberOfThreads) {
+  const KdTree tree(RandomStreet(3000, 0.02, 1));
+  const Neighborhoods one = FindNeighborhoods(tree, 0.6, 1);
+  ASSERT_GT(one.index.size(), 10000u);
+  for (const int num_threads : {0, 2, 3}) {
+    const Neighborhoods several = FindNeighborhoods(tree, 0.6, num_threads);
+    EXPECT_EQ(several.row_begin, one.row_begin) << num_threads << " threads";
+    EXPECT_EQ(several.index, one.index) << num_threads << " threads";
+    EXPECT_EQ(several.squared_distance, one.squared_distance)
+        << num_threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace quatro
