@@ -50,8 +50,15 @@ const char* Name(TimLayout layout) {
 }
 
 const char* Name(SurrogateType surrogate) {
-  return surrogate == SurrogateType::kGemanMcClure ? "geman_mcclure"
-                                                   : "truncated_least_squares";
+  switch (surrogate) {
+    case SurrogateType::kGemanMcClure:
+      return "geman_mcclure";
+    case SurrogateType::kWelsch:
+      return "welsch";
+    case SurrogateType::kTruncatedLeastSquares:
+      break;
+  }
+  return "truncated_least_squares";
 }
 
 const char* Name(GncStart start) {

@@ -74,6 +74,10 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
 
   std::vector<double> values;
   std::string_view rest = *text;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (rest.starts_with(kByteOrderMark)) {
+    rest.remove_prefix(kByteOrderMark.size());
+  }
   bool is_first = true;
   for (int line_number = 1; !rest.empty(); ++line_number) {
     const std::size_t end = rest.find('\n');

@@ -39,6 +39,29 @@ bool CanWrite(const std::string& path, std::string* error) {
   return true;
 }
 
+bool CanWriteAll(const std::vector<std::string>& outputs,
+                 const std::vector<std::string>& inputs,
+                 std::string* error) {
+  const auto full = [](const std::string& path) {
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  std::vector<std::string> taken = inputs;
+  for (const std::string& output : outputs) {
+    if (output.empty()) continue;
+    if (!CanWrite(output, error)) return false;
+    for (const std::string& other : taken) {
+      if (full(output) != full(other)) continue;
+      *error = output +
+               ": is to be written, but is also an input or another "
+               "output";
+      return false;
+    }
+    taken.push_back(output);
+  }
+  return true;
+}
+
 bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto& [path, bytes] = files[i];

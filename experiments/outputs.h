@@ -18,6 +18,12 @@ struct OutputFile {
 // Whether a file could be written here, as far as that can be told beforehand.
 bool CanWrite(const std::string& path, std::string* error);
 
+// The same for all outputs of a program, of which empty ones are left out; none
+// may be one of the inputs or another output.
+bool CanWriteAll(const std::vector<std::string>& outputs,
+                 const std::vector<std::string>& inputs,
+                 std::string* error);
+
 // Writes them in order, each whole or not at all. At the first that can't be
 // written removes those before it and returns false.
 bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error);

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDrawnVoxel = 0.2;    // [m]
+constexpr double kDrawnVoxel = 0.2;      // [m]
 constexpr double kOriginStep = 10000.0;  // [m]
 
 // The scripts stand beside the sources; an installed program has them in share.
@@ -94,8 +94,9 @@ std::optional<std::string> DrawRegistration(const RegistrationPicture& picture,
   // digits; zero for all but map coordinates.
   const Eigen::Vector3d origin =
       picture.target.cols() > 0
-          ? Eigen::Vector3d((picture.target.col(0) / kOriginStep).array().round() *
-                            kOriginStep)
+          ? Eigen::Vector3d(
+                (picture.target.col(0) / kOriginStep).array().round() *
+                kOriginStep)
           : Eigen::Vector3d::Zero();
   data["origin"] = {origin.x(), origin.y(), origin.z()};
   data["source"] = Thinned(picture.source.colwise() - origin);

@@ -10,6 +10,7 @@
 
 DECLARE_bool(help);
 DECLARE_bool(helpshort);
+DECLARE_bool(version);
 
 namespace GFLAGS_NAMESPACE {
 extern void (*gflags_exitfunc)(int);  // Called after a flag that is wrong.
@@ -24,6 +25,11 @@ std::optional<int> ParseFlags(const std::string& usage,
   gflags::SetUsageMessage(usage);
   GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::exit(kExitBadInput); };
   gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
+  if (FLAGS_version) {
+    std::printf(
+        "%s %s\n", gflags::ProgramInvocationShortName(), QUATRO_VERSION);
+    return kExitDone;
+  }
   if (FLAGS_help || FLAGS_helpshort) {
     gflags::ShowUsageWithFlagsRestrict(argv[0], main_file.c_str());
     return kExitDone;

@@ -18,8 +18,9 @@ enum ExitCode {
 };
 
 // Parses the flags. Returns the exit code if the program is to end here: after
-// --help, or for a flag or argument that is not known. `main_file` is the name
-// of the program's source without its ending: --help shows its flags alone.
+// --help or --version, or for a flag or argument that is not known. `main_file`
+// is the name of the program's source without its ending: --help shows its
+// flags alone.
 std::optional<int> ParseFlags(const std::string& usage,
                               const std::string& main_file,
                               int argc,

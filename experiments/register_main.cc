@@ -108,9 +108,11 @@ int main(int argc, char** argv) {
   if (FLAGS_source.empty()) return Fail("--source is empty, must name a cloud");
   if (FLAGS_target.empty()) return Fail("--target is empty, must name a cloud");
   // What can be found wrong at once is found before the work is done.
-  for (const std::string& path :
-       {FLAGS_json, FLAGS_picture, FLAGS_correspondences_out}) {
-    if (!path.empty() && !quatro::CanWrite(path, &error)) return Fail(error);
+  if (!quatro::CanWriteAll(
+          {FLAGS_json, FLAGS_picture, FLAGS_correspondences_out},
+          {FLAGS_source, FLAGS_target},
+          &error)) {
+    return Fail(error);
   }
   if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
     return Fail(error);

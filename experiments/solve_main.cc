@@ -83,8 +83,9 @@ int main(int argc, char** argv) {
   if (FLAGS_correspondences.empty()) {
     return Fail("--correspondences is empty, must name a CSV file");
   }
-  for (const std::string& path : {FLAGS_json, FLAGS_picture}) {
-    if (!path.empty() && !quatro::CanWrite(path, &error)) return Fail(error);
+  if (!quatro::CanWriteAll(
+          {FLAGS_json, FLAGS_picture}, {FLAGS_correspondences}, &error)) {
+    return Fail(error);
   }
   if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
     return Fail(error);

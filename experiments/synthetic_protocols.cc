@@ -151,6 +151,22 @@ std::string FormatCsv(const Table& table) {
   return text;
 }
 
+Table TabulateSurrogates() {
+  Table table{{"mu", "residual", "loss"}, {}};
+  const auto add = [&](const std::string& name, double mu) {
+    for (int i = 0; i <= 300; ++i) {
+      const double residual = 0.01 * i;  // In noise bounds.
+      table.rows.push_back(
+          {name,
+           Number(residual, 2),
+           Number(TruncatedLeastSquares::Loss(residual * residual, mu), 6)});
+    }
+  };
+  for (const double mu : {0.01, 0.1, 0.5, 2.0, 10.0}) add(Number(mu, 2), mu);
+  add("inf", 1e12);
+  return table;
+}
+
 Table RunTimProtocol(int num_seeds, const Progress& progress) {
   constexpr Eigen::Index kNumTims = 5000;
   constexpr double kBound = 0.3;  // c [m]

@@ -23,6 +23,9 @@ std::string FormatCsv(const Table& table);
 // Called with the problems solved so far and in all.
 using Progress = std::function<void(int num_done, int num_problems)>;
 
+// The surrogates of truncated least squares over the residual, for the figure.
+Table TabulateSurrogates();
+
 // Yaw from TIMs at 95, 98 and 99 % outliers: GNC beside the exact sweep.
 Table RunTimProtocol(int num_seeds, const Progress& progress);
 

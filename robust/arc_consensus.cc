@@ -81,8 +81,8 @@ std::vector<TimPair> FindGatedPairs(const DistinctMatches& matches,
 
 bool ArcConsensusOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  if (!(noise_bound > 0.0)) {
-    problem << "noise_bound = " << noise_bound << ", must be > 0";
+  if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
+    problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
   } else if (!(max_tilt >= 0.0 && max_tilt <= M_PI / 2)) {
     problem << "max_tilt = " << max_tilt << ", must be in [0, pi/2]";
   } else if (num_pairs < 1) {

@@ -18,10 +18,11 @@ constexpr double kMinNormalCosine = 0.8;
 constexpr double kRangeQuantile = 0.75;
 constexpr int kMinStructure = 50;
 
-double RangeQuantile(const Points& points) {
+double RangeQuantile(const Points& points, const Eigen::Vector3d& sensor) {
   std::vector<double> squared(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    squared[static_cast<std::size_t>(i)] = points.col(i).squaredNorm();
+    squared[static_cast<std::size_t>(i)] =
+        (points.col(i) - sensor).squaredNorm();
   }
   if (squared.empty()) return 0.0;
   const auto at = squared.begin() +
@@ -38,7 +39,7 @@ std::optional<double> ShareMet(const SurfaceCloud& a,
                                double max_distance,
                                int num_threads) {
   const Points& points = a.tree.points();
-  const double max_range = RangeQuantile(b.tree.points());
+  const double max_range = RangeQuantile(b.tree.points(), b.sensor);
   std::atomic<int> num_structure{0};
   std::atomic<int> num_met{0};
   const auto look = [&](Eigen::Index begin, Eigen::Index end) {
@@ -49,7 +50,7 @@ std::optional<double> ShareMet(const SurfaceCloud& a,
       if (normal.isZero(0.0) || std::abs(normal.z()) > kMaxVertical) continue;
       const Eigen::Vector3d point_in_b =
           b_from_a * Eigen::Vector3d(points.col(i));
-      if (point_in_b.norm() > max_range) continue;
+      if ((point_in_b - b.sensor).norm() > max_range) continue;
       ++structure;
       const Neighbor nearest = b.tree.Nearest(point_in_b, 1).front();
       const double cosine =

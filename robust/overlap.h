@@ -25,8 +25,9 @@
 namespace quatro {
 
 struct SurfaceCloud {
-  const KdTree& tree;     // Of the points, in the frame of the sensor [m].
-  const Points& normals;  // Unit, or zero where there is none.
+  Eigen::Vector3d sensor;  // Where it stood, in the frame of the points [m].
+  const KdTree& tree;      // Of the points [m].
+  const Points& normals;   // Unit, or zero where there is none.
 };
 
 // The smaller of the shares of structure of each scan that is met in the other,

@@ -107,8 +107,8 @@ double RotationStd(const PointsRef& source,
 
 bool PolishOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  if (!(noise_bound > 0.0)) {
-    problem << "noise_bound = " << noise_bound << ", must be > 0";
+  if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
+    problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
   } else if (!(max_tilt > 0.0 && max_tilt <= M_PI)) {
     problem << "polish.max_tilt = " << max_tilt << ", must be in (0, pi]";
   } else if (!(max_rotation_std > 0.0)) {
@@ -134,21 +134,28 @@ PolishSummary Polish(const PointsRef& source,
   if (const auto so3 = SolveSo3(source, target, consistent, bound)) {
     starts.push_back(*so3);
   }
+  // Of a start that came to nothing, unless another did not.
+  const auto refuse = [&](const char* why) {
+    if (!summary.is_polished) summary.message = why;
+  };
   double least = ConsensusCost(source, target, target_from_source, bound);
   for (const Rigid3& start : starts) {
     const auto refined = Refine(source, target, start, bound);
-    if (!refined) continue;
+    if (!refined) {
+      refuse("the matches do not hold roll and pitch");
+      continue;
+    }
     const double cost = ConsensusCost(source, target, *refined, bound);
     if (!(cost < least)) continue;
     const double tilt =
         AngleBetween(refined->rotation, target_from_source.rotation);
     const double rotation_std = RotationStd(source, target, *refined, bound);
     if (tilt > options.max_tilt) {
-      summary.message = "the better pose is turned too far from the yaw";
+      refuse("the better pose is turned too far from the yaw");
       continue;
     }
     if (!(rotation_std <= options.max_rotation_std)) {
-      summary.message = "the matches do not hold roll and pitch";
+      refuse("the matches do not hold roll and pitch");
       continue;
     }
     least = cost;

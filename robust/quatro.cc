@@ -45,9 +45,15 @@ PolishOptions PolishFrom(const QuatroOptions& options) {
 template <typename Subproblem>
 GncSummary<YawEstimate> SolveYaw(const Subproblem& subproblem,
                                  const QuatroOptions& options) {
-  return options.surrogate == SurrogateType::kGemanMcClure
-             ? SolveGnc<GemanMcClure>(subproblem, options.gnc)
-             : SolveGnc<TruncatedLeastSquares>(subproblem, options.gnc);
+  switch (options.surrogate) {
+    case SurrogateType::kGemanMcClure:
+      return SolveGnc<GemanMcClure>(subproblem, options.gnc);
+    case SurrogateType::kWelsch:
+      return SolveGnc<Welsch>(subproblem, options.gnc);
+    case SurrogateType::kTruncatedLeastSquares:
+      break;
+  }
+  return SolveGnc<TruncatedLeastSquares>(subproblem, options.gnc);
 }
 
 // Yaw by the way asked for, with the certificate. Nullopt if the TIMs hold
@@ -93,8 +99,15 @@ std::optional<double> FindYaw(const QuasiSo3& rotation,
   if (yaw) {
     YawEstimate estimate;
     estimate.target_from_source = *yaw;
-    summary->num_rotation_inliers =
-        (rotation.SquaredResiduals(estimate).array() <= 1.0).count();
+    const auto is_inlier =
+        (rotation.SquaredResiduals(estimate).array() <= 1.0).eval();
+    summary->num_rotation_inliers = is_inlier.count();
+    // What is an inlier under any yaw holds none: a pole, noise and all.
+    const auto is_short = (rotation.source.topRows<2>().colwise().norm() +
+                           rotation.target.topRows<2>().colwise().norm())
+                              .transpose()
+                              .array() <= rotation.noise_bound;
+    if (is_inlier.any() && (!is_inlier || is_short).all()) return std::nullopt;
   }
   return yaw;
 }

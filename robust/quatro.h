@@ -49,7 +49,7 @@ enum class YawSolver {
   kExact,  // The global optimum of the truncated problem.
 };
 
-enum class SurrogateType { kTruncatedLeastSquares, kGemanMcClure };
+enum class SurrogateType { kTruncatedLeastSquares, kGemanMcClure, kWelsch };
 
 struct QuatroOptions {
   // How far a right match may be off [m].

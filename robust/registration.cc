@@ -17,7 +17,21 @@
 namespace quatro {
 namespace {
 
+// Where the sensor stood: at the origin of a scan. A cloud that does not reach
+// around its origin is in the coordinates of a map; there, above its middle.
+Eigen::Vector3d AssumedSensor(const Points& points) {
+  const Eigen::Vector3d low = points.rowwise().minCoeff();
+  const Eigen::Vector3d high = points.rowwise().maxCoeff();
+  const Eigen::Vector3d margin = 0.5 * (high - low);
+  if ((low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0) {
+    return Eigen::Vector3d::Zero();
+  }
+  const Eigen::Vector3d middle = 0.5 * (low + high);
+  return {middle.x(), middle.y(), high.z()};
+}
+
 struct DescribedCloud {
+  Eigen::Vector3d sensor;
   KdTree tree;
   Points normals;
   Fpfh fpfh;
@@ -26,16 +40,14 @@ struct DescribedCloud {
 DescribedCloud Describe(const Points& points,
                         const FrontEndOptions& options,
                         int num_threads) {
+  const Eigen::Vector3d sensor = AssumedSensor(points);
   KdTree tree(points);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(tree, options.fpfh_radius, num_threads);
-  Points normals = EstimateNormals(points,
-                                   neighborhoods,
-                                   options.normal_radius,
-                                   Eigen::Vector3d::Zero(),
-                                   num_threads);
+  Points normals = EstimateNormals(
+      points, neighborhoods, options.normal_radius, sensor, num_threads);
   Fpfh fpfh = ComputeFpfh(points, normals, neighborhoods, num_threads);
-  return {std::move(tree), std::move(normals), std::move(fpfh)};
+  return {sensor, std::move(tree), std::move(normals), std::move(fpfh)};
 }
 
 }  // namespace
@@ -44,9 +56,10 @@ bool FrontEndOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!(voxel_size > 0.0 && std::isfinite(voxel_size))) {
     problem << "voxel_size = " << voxel_size << ", must be > 0 and finite";
-  } else if (!(normal_radius > 0.0)) {
-    problem << "normal_radius = " << normal_radius << ", must be > 0";
-  } else if (!(fpfh_radius >= normal_radius)) {
+  } else if (!(normal_radius > 0.0 && std::isfinite(normal_radius))) {
+    problem << "normal_radius = " << normal_radius
+            << ", must be > 0 and finite";
+  } else if (!(fpfh_radius >= normal_radius && std::isfinite(fpfh_radius))) {
     problem << "fpfh_radius = " << fpfh_radius
             << ", must be >= normal_radius = " << normal_radius;
   } else {
@@ -86,10 +99,16 @@ RegistrationSummary Register(const PointCloud& source,
   const double voxel_size = options.front_end.voxel_size;
   const auto source_voxels =
       SampleVoxels(source.points, voxel_size, &summary.error);
-  if (!source_voxels) return summary;
+  if (!source_voxels) {
+    summary.error = "source: " + summary.error;
+    return summary;
+  }
   const auto target_voxels =
       SampleVoxels(target.points, voxel_size, &summary.error);
-  if (!target_voxels) return summary;
+  if (!target_voxels) {
+    summary.error = "target: " + summary.error;
+    return summary;
+  }
   summary.num_source_voxels = source_voxels->cols();
   summary.num_target_voxels = target_voxels->cols();
   finish_stage("voxels");
@@ -138,11 +157,12 @@ RegistrationSummary Register(const PointCloud& source,
   if (summary.solution.IsUsable()) {
     // A voxel's mean may be off by about its size; two of them by more.
     AddOverlap(
-        MeasureStructureOverlap({source_cloud.tree, source_cloud.normals},
-                                {target_cloud.tree, target_cloud.normals},
-                                *summary.solution.target_from_source,
-                                5.0 / 3.0 * voxel_size,
-                                options.num_threads),
+        MeasureStructureOverlap(
+            {source_cloud.sensor, source_cloud.tree, source_cloud.normals},
+            {target_cloud.sensor, target_cloud.tree, target_cloud.normals},
+            *summary.solution.target_from_source,
+            5.0 / 3.0 * voxel_size,
+            options.num_threads),
         options.verdict,
         &summary.verdict);
   }

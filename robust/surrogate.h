@@ -1,6 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The two losses GNC anneals towards, as stateless types.
+// The losses GNC anneals towards, as stateless types.
+//
+// Each is a family rho_mu(r2) and the outlier process Phi_mu(w) dual to it,
+//
+//   rho_mu(r2) = min_{0 <= w <= 1}  w r2 + Phi_mu(w),                      (1)
+//
+// whose minimum is at Weight(r2, mu) (Black and Rangarajan, IJCV 1996).
 //
 // Residuals arrive divided by the noise bound, so an inlier has r2 <= 1 and no
 // loss carries a threshold of its own. Equation numbers are those of Yang,
@@ -37,6 +43,15 @@ struct TruncatedLeastSquares {
     if (r2 <= mu / (mu + 1.0)) return 1.0;
     return std::sqrt(mu * (mu + 1.0) / r2) - mu;
   }
+  // Equation (5) of the Quatro paper.
+  static double OutlierProcess(double w, double mu) {
+    return mu * (1.0 - w) / (mu + w);
+  }
+  static double Loss(double r2, double mu) {
+    if (r2 >= (mu + 1.0) / mu) return 1.0;
+    if (r2 <= mu / (mu + 1.0)) return r2;
+    return 2.0 * std::sqrt(r2 * mu * (mu + 1.0)) - mu * (1.0 + r2);
+  }
 };
 
 // Geman-McClure, r2 / (1 + r2). Convex as mu -> inf, exact at mu = 1.
@@ -53,6 +68,30 @@ struct GemanMcClure {
   static double Weight(double r2, double mu) {
     const double w = mu / (r2 + mu);
     return w * w;
+  }
+  static double OutlierProcess(double w, double mu) {
+    const double root = std::sqrt(w) - 1.0;
+    return mu * root * root;
+  }
+  static double Loss(double r2, double mu) { return mu * r2 / (mu + r2); }
+};
+
+// Welsch (or Leclerc), 1 - exp(-r2). Convex as mu -> inf, exact at mu = 1.
+struct Welsch {
+  static double InitialMu(double max_r2, GncStart) {
+    return std::max(1.0, 2.0 * max_r2);
+  }
+  static double NextMu(double mu, double step) {
+    return std::max(1.0, mu / step);
+  }
+  static bool IsExact(double mu) { return mu <= 1.0; }
+
+  static double Weight(double r2, double mu) { return std::exp(-r2 / mu); }
+  static double OutlierProcess(double w, double mu) {
+    return w > 0.0 ? mu * (1.0 - w + w * std::log(w)) : mu;
+  }
+  static double Loss(double r2, double mu) {
+    return -mu * std::expm1(-r2 / mu);
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include <glog/logging.h>
 
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -52,8 +53,8 @@ std::optional<double> EstimateScale(const DistinctMatches& matches,
 
 bool TeaserOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  if (!(noise_bound > 0.0)) {
-    problem << "noise_bound = " << noise_bound << ", must be > 0";
+  if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
+    problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
   } else if (num_scale_tims < 1) {
     problem << "num_scale_tims = " << num_scale_tims << ", must be >= 1";
   } else if (num_threads < 0) {

@@ -141,6 +141,8 @@ Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
   options.function_tolerance = 0.0;
   options.gradient_tolerance = 1e-15;
   options.parameter_tolerance = 1e-15;
+  // Where the cost has no more digits, steps are invalid: not a failure.
+  options.max_num_consecutive_invalid_steps = options.max_num_iterations;
   options.logging_type = ceres::SILENT;
   for (const Motion<Group>& start : starts) {
     Motion<Group> motion = start;

@@ -45,9 +45,9 @@ namespace quatro {
 
 template <typename Estimate>
 struct CeresTwin {
-  // False if Ceres failed, no pair has weight, or a number is not finite: then
-  // `estimate` means nothing. Pairs that do not determine the answer are
-  // usable: one of the minima, and a curvature that is singular.
+  // False if Ceres failed, no pair has weight, or a number of one that has is
+  // not finite: then `estimate` means nothing. Pairs that do not determine the
+  // answer are usable: one of the minima, and a curvature that is singular.
   bool is_usable = false;
   Estimate estimate;
   std::string message = "not solved";  // Ceres' reason to stop.

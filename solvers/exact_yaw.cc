@@ -17,6 +17,9 @@
 namespace quatro {
 namespace {
 
+// Costs that differ by less, relative to all weight, do by rounding.
+constexpr double kTie = 1e-12;
+
 // One measurement as it stands in (1), divided by c^2 / w.
 struct Arc {
   double phi = 0.0;           // [rad]
@@ -40,8 +43,36 @@ struct End {
 //   g(theta0 + d) = at_reference + cosine (1 - cos d) + sine sin d.
 // The reference moves along with the sweep, so at_reference is a sum of small
 // residuals and nothing cancels.
+//
+// An arc that leaves takes with it the digits below its own last one. So the
+// sums are made anew once what has left outweighs what stays: a long
+// measurement does not drown the short ones, at O(1) an arc where lengths are
+// comparable.
 class Sinusoid {
  public:
+  explicit Sinusoid(const std::vector<Arc>& arcs)
+      : arcs_(arcs), position_(arcs.size()) {}
+
+  void Enter(std::int32_t arc) {
+    position_[static_cast<std::size_t>(arc)] = set_.size();
+    set_.push_back(arc);
+    Add(arc, 1.0);
+  }
+
+  void Leave(std::int32_t arc) {
+    const std::size_t position = position_[static_cast<std::size_t>(arc)];
+    set_[position] = set_.back();
+    position_[static_cast<std::size_t>(set_.back())] = position;
+    set_.pop_back();
+    Add(arc, -1.0);
+    gone_ += arcs_[static_cast<std::size_t>(arc)].pull;
+    if (!(gone_ > 4.0 * held_) && !set_.empty()) return;
+    at_reference_ = cosine_ = sine_ = held_ = gone_ = 0.0;
+    for (const std::int32_t i : set_) Add(i, 1.0);
+  }
+
+  bool IsEmpty() const { return set_.empty(); }
+
   void MoveReference(double theta) {
     const double step = theta - reference_;
     reference_ = theta;
@@ -54,16 +85,6 @@ class Sinusoid {
     cosine_ = cosine;
   }
 
-  void Add(const Arc& arc, double sign) {
-    const double u = reference_ - arc.phi;
-    const double half = std::sin(0.5 * u);
-    at_reference_ += sign * (arc.length_error + arc.pull * 2.0 * half * half);
-    cosine_ += sign * arc.pull * std::cos(u);
-    sine_ += sign * arc.pull * std::sin(u);
-  }
-
-  void Clear() { at_reference_ = cosine_ = sine_ = 0.0; }
-
   // at_reference + C - |(C, S)|, written so that it does not cancel.
   double Minimum() const {
     const double length = std::hypot(cosine_, sine_);
@@ -74,10 +95,25 @@ class Sinusoid {
   double Argmin() const { return reference_ + std::atan2(-sine_, cosine_); }
 
  private:
+  void Add(std::int32_t index, double sign) {
+    const Arc& arc = arcs_[static_cast<std::size_t>(index)];
+    const double u = reference_ - arc.phi;
+    const double half = std::sin(0.5 * u);
+    at_reference_ += sign * (arc.length_error + arc.pull * 2.0 * half * half);
+    cosine_ += sign * arc.pull * std::cos(u);
+    sine_ += sign * arc.pull * std::sin(u);
+    held_ += sign * arc.pull;
+  }
+
+  const std::vector<Arc>& arcs_;
+  std::vector<std::int32_t> set_;
+  std::vector<std::size_t> position_;  // In set_, of who is in it.
   double reference_ = -M_PI;
   double at_reference_ = 0.0;
   double cosine_ = 0.0;
   double sine_ = 0.0;
+  double held_ = 0.0;  // Pull of the set.
+  double gone_ = 0.0;  // Pull of who left since the sums were made.
 };
 
 Eigen::ArrayXd SquaredResiduals(const PointsRef& source,
@@ -116,9 +152,8 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
 
   std::vector<Arc> arcs;
   std::vector<End> ends;
-  Sinusoid sinusoid;
-  double outlier_weight = 0.0;  // Of the arcs that are not in the set.
-  int num_in_set = 0;
+  std::vector<std::int32_t> first_set;  // Of the arcs that hold -pi.
+  double outlier_weight = 0.0;          // Of the arcs that are not in the set.
   for (Eigen::Index k = 0; k < source.cols(); ++k) {
     const double sx = source(0, k);
     const double sy = source(1, k);
@@ -137,8 +172,7 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
     const auto index = static_cast<std::int32_t>(arcs.size());
     arcs.push_back({phi, (a - b) * (a - b) * scale, pull * scale, weights[k]});
     if (room >= 2.0 * pull) {
-      sinusoid.Add(arcs.back(), 1.0);
-      ++num_in_set;
+      first_set.push_back(index);
       continue;
     }
     outlier_weight += weights[k];
@@ -150,20 +184,22 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
     ends.push_back({begin, false, index});
     ends.push_back({end, true, index});
     if (begin > end) {  // It holds -pi, where the sweep starts.
-      sinusoid.Add(arcs.back(), 1.0);
+      first_set.push_back(index);
       outlier_weight -= weights[k];
-      ++num_in_set;
     }
   }
   if (arcs.empty()) return std::nullopt;
   std::sort(ends.begin(), ends.end());
 
+  Sinusoid sinusoid(arcs);
+  for (const std::int32_t arc : first_set) sinusoid.Enter(arc);
+  const double tie = kTie * weights.sum();
   double best_cost = std::numeric_limits<double>::infinity();
   double best_yaw = 0.0;
   const auto consider = [&] {
-    if (num_in_set == 0) return;
+    if (sinusoid.IsEmpty()) return;
     const double cost = sinusoid.Minimum() + outlier_weight;
-    if (cost < best_cost) {
+    if (cost < best_cost - tie) {
       best_cost = cost;
       best_yaw = sinusoid.Argmin();
     }
@@ -172,10 +208,13 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
   for (const End& end : ends) {
     const Arc& arc = arcs[static_cast<std::size_t>(end.arc)];
     sinusoid.MoveReference(end.at);
-    sinusoid.Add(arc, end.leaves ? -1.0 : 1.0);
-    outlier_weight += end.leaves ? arc.weight : -arc.weight;
-    num_in_set += end.leaves ? -1 : 1;
-    if (num_in_set == 0) sinusoid.Clear();
+    if (end.leaves) {
+      sinusoid.Leave(end.arc);
+      outlier_weight += arc.weight;
+    } else {
+      sinusoid.Enter(end.arc);
+      outlier_weight -= arc.weight;
+    }
     consider();
   }
 

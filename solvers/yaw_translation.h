@@ -37,7 +37,8 @@ struct YawTranslationEstimate {
 
 // `source` and `target` hold the points column by column; their sizes and that
 // of `weights` must agree. Nullopt if they do not determine the yaw: fewer than
-// two have weight, all that have are on a vertical in one of the clouds, or NaN.
+// two have weight, those that have are on a vertical in one of the clouds, or
+// NaN.
 std::optional<YawTranslationEstimate> EstimateYawTranslation(
     const PointsRef& source,
     const PointsRef& target,

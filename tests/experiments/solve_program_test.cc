@@ -283,7 +283,8 @@ TEST_F(SolveProgramTest, RegistersFarFromTheOrigin) {
 }
 
 TEST_F(SolveProgramTest, ReportHasAllFields) {
-  const json report = Report(MakeProblem(400, 9).matches);
+  const std::string path = WriteMatches("a.csv", MakeProblem(400, 9).matches);
+  const json report = ReportOf(Solve(path, {"--method=quatro"}));
   for (const char* name : {"status", "reason", "method", "version"}) {
     EXPECT_TRUE(report[name].is_string()) << name;
   }

@@ -220,6 +220,18 @@ TEST(FindCliqueGreedily, OfDisjointCliquesTakesTheLargest) {
               ElementsAre(10, 66, 67, 130, 131, 199));
 }
 
+TEST(FindCliqueGreedily, LooksBelowTheHighestCoreToo) {
+  // Five times five, all across and none within, are a core of five with no
+  // clique above two; the triangle is a core of two.
+  Graph graph(13);
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 5; j < 10; ++j) graph.AddEdge(i, j);
+  }
+  AddClique({10, 11, 12}, &graph);
+  EXPECT_THAT(FindCliqueGreedily(graph), ElementsAre(10, 11, 12));
+  EXPECT_THAT(FindMaxCore(graph), SizeIs(10));
+}
+
 TEST(FindCliqueGreedily, OfAllEdgesIsEverythingAndOfNoneOneVertex) {
   EXPECT_THAT(FindCliqueGreedily(CompleteGraph(64)), SizeIs(64));
   EXPECT_THAT(FindCliqueGreedily(CompleteGraph(129)), SizeIs(129));

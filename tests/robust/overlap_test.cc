@@ -22,7 +22,9 @@ struct Scan {
                                 1.0,
                                 Eigen::Vector3d::Zero(),
                                 1)) {}
-  operator SurfaceCloud() const { return {tree, normals}; }
+  operator SurfaceCloud() const {
+    return {Eigen::Vector3d::Zero(), tree, normals};
+  }
 
   KdTree tree;
   Points normals;
@@ -117,7 +119,8 @@ TEST_F(StructureOverlapTest, WithoutPointsThereIsNone) {
 TEST_F(StructureOverlapTest, SurfacesThatCrossAreNotMet) {
   // The same points with all normals turned by a quarter.
   const Points turned_normals = RotationZ(M_PI / 2) * target_.normals;
-  const SurfaceCloud turned{target_.tree, turned_normals};
+  const SurfaceCloud turned{
+      Eigen::Vector3d::Zero(), target_.tree, turned_normals};
   EXPECT_LT(
       *MeasureStructureOverlap(turned, target_, Rigid3(), kMaxDistance, 1),
       0.1);

@@ -29,10 +29,12 @@ constexpr int kNumProblems = 1000;
 // Of argmin [rad, m], cost and curvature (relative).
 constexpr double kTolerance = 1e-8;
 
-// A problem whose least curvature of the rotation is below this part of
-// sum_i w_i |s_i| |t_i| is ill-conditioned: there, rounding (1e-16) and the
-// 50 m to the origin alone move the answer by 1e-9.
+// A problem is ill-conditioned if the least curvature of its rotation is below
+// the first part of sum_i w_i |s_i| |t_i| about the means or the second of that
+// about the origin: there, rounding (1e-16) and the 50 m to the origin alone
+// move the answer by 1e-9.
 constexpr double kMinConditioning = 1e-5;
+constexpr double kMinConditioningFarAway = 1e-8;
 
 struct WeightedPairs {
   Points source;
@@ -85,6 +87,12 @@ WeightedPairs Centered(WeightedPairs pairs) {
   pairs.source.colwise() -= p;
   pairs.target.colwise() -= q;
   return pairs;
+}
+
+bool IsIllConditioned(const WeightedPairs& pairs, double least_curvature) {
+  return !(least_curvature >
+           std::max(kMinConditioning * Centered(pairs).Scale(),
+                    kMinConditioningFarAway * pairs.Scale()));
 }
 
 double LeastEigenvalue(const Eigen::MatrixXd& symmetric) {
@@ -167,8 +175,8 @@ TEST(CeresTwins, YawTranslationAgreesWithItsClosedForm) {
     const WeightedPairs pairs = Moved(RandomPairs(RotationZ(yaw), seed), seed);
     const auto twin =
         SolveYawTranslationByCeres(pairs.source, pairs.target, pairs.weights);
-    if (!twin.is_usable || twin.estimate.curvature(0, 0) <
-                               kMinConditioning * Centered(pairs).Scale()) {
+    if (!twin.is_usable ||
+        IsIllConditioned(pairs, twin.estimate.curvature(0, 0))) {
       ++num_skipped;
       continue;
     }
@@ -200,8 +208,9 @@ TEST(CeresTwins, PoseAgreesWithItsClosedForm) {
     const auto twin =
         SolvePoseByCeres(pairs.source, pairs.target, pairs.weights);
     if (!twin.is_usable ||
-        LeastEigenvalue(twin.estimate.curvature.topLeftCorner<3, 3>()) <
-            kMinConditioning * Centered(pairs).Scale()) {
+        IsIllConditioned(
+            pairs,
+            LeastEigenvalue(twin.estimate.curvature.topLeftCorner<3, 3>()))) {
       ++num_skipped;
       continue;
     }

@@ -78,8 +78,8 @@ INSTANTIATE_TEST_SUITE_P(ClosedForms,
                          RotationTest,
                          ::testing::Values(&EstimateRotationSvd,
                                            &EstimateRotationHorn),
-                         [](const auto& info) {
-                           return info.index == 0 ? "Svd" : "Horn";
+                         [](const auto& solver) {
+                           return solver.index == 0 ? "Svd" : "Horn";
                          });
 
 TEST_P(RotationTest, RecoversExactRotationsAndHalfTurns) {

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Draws the surrogates of truncated least squares, as in the paper's figure.
+
+    build/bin/quatro_experiment --protocol=surrogates --output=surrogates.csv
+    experiments/with_python.sh matplotlib experiments/draw_surrogates.py surrogates.csv surrogates.png
+"""
+import csv
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(f"usage: {sys.argv[0]} TABLE.csv PICTURE.png")
+    curves = {}
+    with open(sys.argv[1], newline="") as file:
+        for row in csv.DictReader(file):
+            curves.setdefault(row["mu"], []).append((float(row["residual"]), float(row["loss"])))
+
+    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    colors = plt.get_cmap("viridis")
+    for i, (mu, points) in enumerate(curves.items()):
+        x = [-r for r, _ in reversed(points)] + [r for r, _ in points]
+        y = [loss for _, loss in reversed(points)] + [loss for _, loss in points]
+        is_exact = mu == "inf"
+        axes.plot(x, y, color="black" if is_exact else colors(i / len(curves)),
+                  linewidth=2 if is_exact else 1.5,
+                  label=r"$\mu \to \infty$: truncated" if is_exact else rf"$\mu = {float(mu):g}$")
+    axes.axvspan(-1, 1, color="0.93", zorder=0)
+    axes.text(0, 1.03, "inlier", ha="center")
+    axes.set_ylim(0, 1.15)
+    axes.set_xlabel("residual over the noise bound, $r / c$")
+    axes.set_ylabel(r"$\rho_\mu(r^2 / c^2)$")
+    axes.set_title("Truncated least squares and its surrogates")
+    axes.legend(loc="lower right")
+    figure.savefig(sys.argv[2], dpi=120)
+
+
+if __name__ == "__main__":
+    main()
