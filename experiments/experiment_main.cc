@@ -8,8 +8,8 @@
 
 #include "experiments/outputs.h"
 #include "experiments/program.h"
+#include "experiments/progress_line.h"
 #include "experiments/synthetic_protocols.h"
-#include "features/stopwatch.h"
 
 DEFINE_string(protocol,
               "",
@@ -33,25 +33,6 @@ constexpr char kUsage[] =
     "with\n"
     "0; 2 if a flag or the output is wrong.";
 
-// One line on stderr that is written over.
-class ProgressLine {
- public:
-  void operator()(int num_done, int num_problems) {
-    elapsed_ += stopwatch_.Lap();
-    const double left = elapsed_ / num_done * (num_problems - num_done);
-    std::fprintf(stderr,
-                 "\r%d of %d problems, %.0f s left   %s",
-                 num_done,
-                 num_problems,
-                 left,
-                 num_done == num_problems ? "\n" : "");
-  }
-
- private:
-  quatro::Stopwatch stopwatch_;
-  double elapsed_ = 0.0;
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -68,10 +49,7 @@ int main(int argc, char** argv) {
     return Fail(error);
   }
 
-  ProgressLine line;
-  const quatro::Progress progress = [&](int num_done, int num_problems) {
-    line(num_done, num_problems);
-  };
+  const quatro::Progress progress = quatro::ProgressLine("problems");
   quatro::Table table;
   if (FLAGS_protocol == "tims") {
     table = quatro::RunTimProtocol(FLAGS_seeds, progress);

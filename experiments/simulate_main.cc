@@ -3,12 +3,11 @@
 
 #include <gflags/gflags.h>
 
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "experiments/program.h"
+#include "experiments/progress_line.h"
 #include "experiments/simulator.h"
 
 DEFINE_string(output, "", "Folder to write; its parents are created. Required");
@@ -39,26 +38,6 @@ constexpr char kUsage[] =
 
 constexpr double kDegree = M_PI / 180.0;
 
-// One line on stderr that is written over.
-class ProgressLine {
- public:
-  void operator()(int num_done, int num_frames) {
-    using Seconds = std::chrono::duration<double>;
-    const double elapsed = Seconds(Clock::now() - start_).count();
-    const double left = elapsed / num_done * (num_frames - num_done);
-    std::fprintf(stderr,
-                 "\r%d of %d scans, %.0f s left   %s",
-                 num_done,
-                 num_frames,
-                 left,
-                 num_done == num_frames ? "\n" : "");
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -80,7 +59,7 @@ int main(int argc, char** argv) {
   options.overwrite = FLAGS_overwrite;
   std::string error;
   if (!quatro::SimulateSequence(
-          options, FLAGS_output, ProgressLine(), &error)) {
+          options, FLAGS_output, quatro::ProgressLine("scans"), &error)) {
     return Fail(error);
   }
   return 0;

@@ -140,9 +140,14 @@ std::string FormatCsv(const Table& table) {
   std::string text;
   const auto add = [&](const std::vector<std::string>& row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const bool needs_quotes = row[i].find(',') != std::string::npos;
-      const std::string quote = needs_quotes ? "\"" : "";
-      text += (i > 0 ? "," : "") + quote + row[i] + quote;
+      if (i > 0) text += ',';
+      if (row[i].find_first_of(",\"\n") == std::string::npos) {
+        text += row[i];
+        continue;
+      }
+      text += '"';
+      for (const char c : row[i]) text += c == '"' ? "\"\"" : std::string(1, c);
+      text += '"';
     }
     text += '\n';
   };

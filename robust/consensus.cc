@@ -14,7 +14,7 @@ double ConsensusCost(const PointsRef& source,
                      const Rigid3& target_from_source,
                      double noise_bound) {
   CHECK_EQ(source.cols(), target.cols());
-  const double scale = 1.0 / (3.0 * noise_bound * noise_bound);
+  const double scale = 1.0 / (noise_bound * noise_bound);
   double cost = 0.0;
   for (Eigen::Index i = 0; i < source.cols(); ++i) {
     const Eigen::Vector3d moved =

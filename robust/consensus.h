@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 // How well a pose explains matched points: truncated least squares in space,
 //
-//   f(R, t) = sum_i min( |q_i - R p_i - t|^2 / (3 b^2), 1 ).               (1)
+//   f(R, t) = sum_i min( |q_i - R p_i - t|^2 / b^2, 1 ).                   (1)
 //
-// The ball of radius sqrt(3) b holds the box of +-b on each axis that the
-// axis-wise translation works with.
+// It has no favourite axes, unlike the translation axis by axis: poses in SE(3)
+// are chosen by it.
 
 #ifndef QUATRO_ROBUST_CONSENSUS_H_
 #define QUATRO_ROBUST_CONSENSUS_H_

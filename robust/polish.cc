@@ -33,7 +33,7 @@ std::vector<Eigen::Index> WithinBall(const PointsRef& source,
                                      const Rigid3& pose,
                                      double noise_bound) {
   const Points error = target - pose.Apply(source);
-  const double limit = 3.0 * noise_bound * noise_bound;
+  const double limit = noise_bound * noise_bound;
   std::vector<Eigen::Index> within;
   for (Eigen::Index i = 0; i < error.cols(); ++i) {
     if (error.col(i).squaredNorm() <= limit) within.push_back(i);

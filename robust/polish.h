@@ -6,7 +6,7 @@
 // Candidates are refined in SE(3) on the matches that agree with them,
 //
 //   min_{R, t}  sum_{i in I} |q_i - R p_i - t|^2,
-//   I = { i : |q_i - R p_i - t| <= sqrt(3) b },                            (1)
+//   I = { i : |q_i - R p_i - t| <= b },                                    (1)
 //
 // alternating I and the closed form, with b narrowing to the noise bound. One
 // starts from the yaw-only answer; a second from SO(3) by graduated

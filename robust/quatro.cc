@@ -178,8 +178,8 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   if (!yaw) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
-        "the consistent matches hold no heading: they are at one place or "
-        "above one another";
+        "the consistent matches hold no heading: they are at one place, above "
+        "one another, or agree in space but in no turn about the vertical";
     return summary;
   }
   summary.yaw = *yaw;

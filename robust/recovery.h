@@ -5,10 +5,10 @@
 // The largest clique is not always the right one: where many matches are right
 // in xy and wrong in z, it keeps those that happen to be wrong alike and leaves
 // out true ones. Their yaw is right all the same. So three translations are
-// tried, the one from the clique; the best per axis over all matches, z over
-// those that agree in xy; and z over those that agree with the clique's xy. The
-// one with the least truncated cost in space (robust/consensus.h) wins, so the
-// answer never gets worse by it.
+// tried: the one from the clique; its x and y with z over all matches that
+// agree with them; and the best x and the best y over all matches, z again over
+// those that agree. The one with the least truncated cost in space
+// (robust/consensus.h) wins.
 
 #ifndef QUATRO_ROBUST_RECOVERY_H_
 #define QUATRO_ROBUST_RECOVERY_H_

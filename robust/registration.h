@@ -49,6 +49,7 @@ struct RegistrationOptions {
   PoseSolver solver;
 
   VerdictOptions verdict;
+  // For all parts: those of front_end.tuple and quatro are replaced by these.
   int num_threads = 1;  // 0: all cores. Never changes the answer.
   std::uint64_t seed = 0;
 

@@ -168,6 +168,7 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
     // sin^2(half width / 2) = (c^2 - (a - b)^2) / (4 a b).
     const double room = bound2 - (a - b) * (a - b);
     if (!(weights[k] > 0.0) || !(pull > 0.0) || !(room >= 0.0)) continue;
+    if (!std::isfinite(pull * scale)) continue;  // No angle could be told.
     const double phi = std::atan2(sx * ty - sy * tx, sx * tx + sy * ty);
     const auto index = static_cast<std::int32_t>(arcs.size());
     arcs.push_back({phi, (a - b) * (a - b) * scale, pull * scale, weights[k]});

@@ -31,8 +31,8 @@ struct ConsensusEstimate {
   Eigen::Index num_inliers = 0;  // How many i have |value - v_i| <= b_i.
 };
 
-// (1) for one axis. `bounds` are > 0 and as many as `values`. Nullopt if there
-// are none.
+// (1) for one axis. `bounds` are > 0, as many as `values`, and the largest no
+// more than 1e8 times the smallest. Nullopt if there are none.
 std::optional<ConsensusEstimate> EstimateConsensus(
     const Eigen::Ref<const Eigen::VectorXd>& values,
     const Eigen::Ref<const Eigen::VectorXd>& bounds);

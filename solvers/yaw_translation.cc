@@ -5,8 +5,6 @@
 
 #include <glog/logging.h>
 
-#include <cmath>
-
 #include "solvers/centroid.h"
 #include "solvers/yaw.h"
 
@@ -24,7 +22,9 @@ std::optional<YawTranslationEstimate> EstimateYawTranslation(
   const CenteredPoints q = Center(target, weights);
   const auto yaw = EstimateYaw(p.points, q.points, weights);
   const double floor = RoundingOfMoments(p, q, weights);
-  if (!yaw || !(yaw->curvature > floor)) return std::nullopt;
+  if (!yaw || !(yaw->curvature > floor)) {
+    return std::nullopt;  // Also if a height, which no yaw sees, is NaN.
+  }
 
   const Eigen::Matrix3d R = RotationZ(yaw->target_from_source);
   YawTranslationEstimate estimate;
@@ -35,7 +35,6 @@ std::optional<YawTranslationEstimate> EstimateYawTranslation(
                                   .square()
                                   .matrix()
                                   .dot(weights.transpose());
-  if (!std::isfinite(estimate.cost)) return std::nullopt;
   estimate.curvature.diagonal() << yaw->curvature,
       Eigen::Vector3d::Constant(2.0 * total_weight);
   return estimate;

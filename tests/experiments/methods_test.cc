@@ -1,2 +1,109 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
+
+#include "experiments/methods.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "experiments/synthetic.h"
+#include "robust/arc_consensus.h"
+#include "robust/teaser.h"
+
+namespace quatro {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+PoseSummary Solve(const std::string& name,
+                  const MatchedProblem& problem,
+                  const QuatroOptions& options = {}) {
+  std::string error;
+  const PoseSolver solve = MakeSolver(name, options, &error);
+  EXPECT_TRUE(solve) << name;
+  EXPECT_EQ(error, "");
+  return solve(problem.source, problem.target);
+}
+
+void ExpectSameBits(const PoseSummary& a, const PoseSummary& b) {
+  ASSERT_TRUE(a.IsUsable()) << a.message;
+  ASSERT_TRUE(b.IsUsable()) << b.message;
+  EXPECT_EQ(a.target_from_source->ToMatrix(), b.target_from_source->ToMatrix());
+}
+
+TEST(Methods, AllNamesResolveAndSolve) {
+  EXPECT_THAT(MethodNames(),
+              UnorderedElementsAre(
+                  "auto", "quatro", "quatro_exact", "arc_consensus", "teaser"));
+  const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.05, 1);
+  for (const std::string& name : MethodNames()) {
+    const PoseSummary summary = Solve(name, problem);
+    ASSERT_TRUE(summary.IsUsable()) << name << ": " << summary.message;
+    EXPECT_LE((summary.target_from_source->translation -
+               problem.true_target_from_source.translation)
+                  .norm(),
+              0.3)
+        << name;
+    EXPECT_THAT(DescribeMethods(), HasSubstr(name + " ")) << name;
+  }
+}
+
+TEST(Methods, AreTheSolversTheyAreNamedFor) {
+  const MatchedProblem problem = MakeOutlierProblem(200, 0.7, 0.1, 2);
+  ExpectSameBits(Solve("quatro", problem),
+                 SolveQuatro(problem.source, problem.target, {}));
+  QuatroOptions exact;
+  exact.yaw_solver = YawSolver::kExact;
+  ExpectSameBits(Solve("quatro_exact", problem),
+                 SolveQuatro(problem.source, problem.target, exact));
+  ExpectSameBits(Solve("arc_consensus", problem),
+                 SolveArcConsensus(problem.source, problem.target, {}));
+  ExpectSameBits(Solve("teaser", problem),
+                 SolveTeaser(problem.source, problem.target, {}));
+}
+
+TEST(Methods, TakeWhatAppliesToThemFromTheOptions) {
+  const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.1, 3);
+  QuatroOptions options;
+  options.noise_bound = 0.05;  // Less than the noise.
+  for (const std::string& name : MethodNames()) {
+    EXPECT_LT(Solve(name, problem, options).num_translation_inliers,
+              Solve(name, problem).num_translation_inliers)
+        << name;
+  }
+  options = {};
+  options.crosscheck = true;
+  EXPECT_TRUE(Solve("quatro", problem, options).crosscheck.has_value());
+  EXPECT_TRUE(Solve("teaser", problem, options).crosscheck.has_value());
+}
+
+TEST(Methods, AnUnknownNameListsAll) {
+  for (const char* name : {"", "Quatro", "ransac"}) {
+    std::string error;
+    EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
+    EXPECT_THAT(error, HasSubstr("--method=" + std::string(name)));
+    for (const std::string& known : MethodNames()) {
+      EXPECT_THAT(error, HasSubstr(" " + known));
+    }
+  }
+}
+
+TEST(Methods, AutoTakesArcConsensusAboveTwentyThousandMatches) {
+  const MatchedProblem many = MakeOutlierProblem(20001, 0.9, 0.1, 4);
+  ExpectSameBits(Solve("auto", many), Solve("arc_consensus", many));
+  // No graph is built.
+  EXPECT_EQ(Solve("auto", many).stage_times.front().stage,
+            std::string("pairs"));
+  const MatchedProblem few{many.source.rightCols(20000),
+                           many.target.rightCols(20000),
+                           many.true_target_from_source};
+  const PoseSummary summary = Solve("auto", few);
+  EXPECT_EQ(summary.stage_times.front().stage, std::string("graph"));
+  ExpectSameBits(summary, Solve("quatro", few));
+}
+
+}  // namespace
+}  // namespace quatro

@@ -34,13 +34,12 @@ class ConsensusTest : public ::testing::Test {
 };
 
 TEST_F(ConsensusTest, CostByHand) {
-  // Of 3 * 0.3^2 = 0.27: nothing, all of it, 0.31^2 and more than all.
-  EXPECT_NEAR(ConsensusCost(source_, target_, pose_, 0.3),
-              0.0 + 1.0 + 0.31 * 0.31 / 0.27 + 1.0,
+  // Of 0.6^2 = 0.36: nothing, 3 * 0.3^2, 0.31^2 and more than all.
+  EXPECT_NEAR(ConsensusCost(source_, target_, pose_, 0.6),
+              (0.27 + 0.31 * 0.31) / 0.36 + 1.0,
               1e-12);
-  // Of 3 * 10^2.
   EXPECT_NEAR(ConsensusCost(source_, target_, pose_, 10.0),
-              (0.27 + 0.31 * 0.31 + 9.0) / 300.0,
+              (0.27 + 0.31 * 0.31 + 9.0) / 100.0,
               1e-12);
 }
 
@@ -58,8 +57,8 @@ TEST_F(ConsensusTest, NoMatchesCostNothingAndNoneAgrees) {
   EXPECT_THAT(FindAgreeing(Points(3, 0), Points(3, 0), pose_, 0.3), IsEmpty());
 }
 
-TEST(Consensus, WhoAgreesOnEachAxisIsWithinTheBall) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/1);
+TEST(Consensus, WhoIsWithinTheBallAgreesOnEachAxis) {
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/1);
   const auto agreeing = FindAgreeing(
       problem.source, problem.target, problem.true_target_from_source, 0.05);
   EXPECT_EQ(agreeing, problem.inliers);
@@ -72,18 +71,17 @@ TEST(Consensus, WhoAgreesOnEachAxisIsWithinTheBall) {
 }
 
 TEST(Consensus, MovingBothCloudsDoesNotMatter) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/2);
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/2);
   const Rigid3 a{RandomRotation(1), {1.0, -2.0, 3.0}};
   const Rigid3 b{RandomRotation(2), {-4.0, 5.0, 6.0}};
-  EXPECT_NEAR(ConsensusCost(a.Apply(problem.source),
-                            b.Apply(problem.target),
-                            b * problem.true_target_from_source * Inverse(a),
-                            0.1),
-              ConsensusCost(problem.source,
-                            problem.target,
-                            problem.true_target_from_source,
-                            0.1),
-              1e-9);
+  EXPECT_NEAR(
+      ConsensusCost(a.Apply(problem.source),
+                    b.Apply(problem.target),
+                    b * problem.true_target_from_source * Inverse(a),
+                    0.1),
+      ConsensusCost(
+          problem.source, problem.target, problem.true_target_from_source, 0.1),
+      1e-9);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ int NumEdges(const Graph& graph) {
 
 // The table at the head of the header in double: how far inside its bound the
 // test on matches i and j is [m], negative where it fails.
-double Margin(const MatchedProblem& problem,
+double Margin(const KnownProblem& problem,
               const ConsistencyOptions& options,
               int i,
               int j) {
@@ -70,7 +70,7 @@ double Margin(const MatchedProblem& problem,
 
 TEST(ConsistencyGraph, EdgesAreThoseOfTheDefinition) {
   // Narrow boxes, so that all tests have both edges and gaps.
-  const MatchedProblem problem = MakeMatchedProblem(
+  const KnownProblem problem = MakeMatchedProblem(
       {.num_outliers = 110, .half_widths = {6.0, 6.0, 3.0}}, /*seed=*/1);
   for (const ConsistencyTest test : kAllTests) {
     ConsistencyOptions options;
@@ -97,7 +97,7 @@ TEST(ConsistencyGraph, EdgesAreThoseOfTheDefinition) {
 
 TEST(ConsistencyGraph, IsSymmetricWithoutLoopsOrBitsBeyondTheEnd) {
   for (const int n : {1, 2, 63, 64, 65, 130}) {
-    const MatchedProblem problem =
+    const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = n, .num_outliers = 0}, /*seed=*/2);
     for (const ConsistencyTest test : kAllTests) {
       const Graph graph = Build(problem.source, problem.target, test);
@@ -121,7 +121,7 @@ TEST(ConsistencyGraph, OfNoMatchesHasNoVertices) {
 }
 
 TEST(ConsistencyGraph, NumberOfThreadsDoesNotMatter) {
-  const MatchedProblem problem =
+  const KnownProblem problem =
       MakeMatchedProblem({.num_inliers = 300, .num_outliers = 300}, /*seed=*/3);
   for (const ConsistencyTest test : kAllTests) {
     const Graph expected = Build(problem.source, problem.target, test, 1);
@@ -136,7 +136,7 @@ TEST(ConsistencyGraph, NumberOfThreadsDoesNotMatter) {
 
 // Edges may change only where a length is at its bound.
 TEST(ConsistencyGraph, MovingTheTargetByYawAndTranslationKeepsIt) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/4);
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/4);
   const Rigid3 motion{RotationZ(-2.5), {100.0, -30.0, 7.0}};
   for (const ConsistencyTest test : kAllTests) {
     EXPECT_TRUE(
@@ -146,7 +146,7 @@ TEST(ConsistencyGraph, MovingTheTargetByYawAndTranslationKeepsIt) {
 }
 
 TEST(ConsistencyGraph, SwappingSourceAndTargetKeepsIt) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/5);
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/5);
   for (const ConsistencyTest test : kAllTests) {
     EXPECT_TRUE(AreEqual(Build(problem.source, problem.target, test),
                          Build(problem.target, problem.source, test)));
@@ -154,7 +154,7 @@ TEST(ConsistencyGraph, SwappingSourceAndTargetKeepsIt) {
 }
 
 TEST(ConsistencyGraph, OnlyLengthAllowsATurnAboutAnyAxis) {
-  MatchedProblem problem =
+  KnownProblem problem =
       MakeMatchedProblem({.num_inliers = 30, .num_outliers = 0}, /*seed=*/6);
   problem.target = RandomRotation(6) * problem.source;
   const int all = 30 * 29 / 2;
@@ -167,7 +167,7 @@ TEST(ConsistencyGraph, OnlyLengthAllowsATurnAboutAnyAxis) {
 }
 
 TEST(ConsistencyGraph, OnlyPlanarKeepsMatchesThatAreWrongInHeight) {
-  MatchedProblem problem = MakeMatchedProblem(
+  KnownProblem problem = MakeMatchedProblem(
       {.num_inliers = 20, .num_outliers = 0, .half_widths = {10.0, 10.0, 4.0}},
       /*seed=*/7);
   problem.target.row(2) *= -1.0;  // Heights upside down.
@@ -201,7 +201,7 @@ TEST(ConsistencyGraph, HeightMayDifferByTheTiltOfTheDistance) {
 }
 
 TEST(ConsistencyGraph, LargeCoordinatesCostNoPrecision) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/8);
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/8);
   const Eigen::Vector3d far(1e7, -3e7, 1e5);  // [m], e.g. UTM.
   for (const ConsistencyTest test : kAllTests) {
     EXPECT_TRUE(
@@ -211,7 +211,7 @@ TEST(ConsistencyGraph, LargeCoordinatesCostNoPrecision) {
 }
 
 TEST(ConsistencyGraph, OneFarOutlierCostsTheOthersNoPrecision) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/9);
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/9);
   const auto n = static_cast<int>(problem.source.cols());
   for (const double far : {1e7, 1e12}) {
     Points source = problem.source;

@@ -22,7 +22,7 @@ using ::testing::SizeIs;
 
 class DistinctMatchesTest : public ::testing::Test {
  protected:
-  const MatchedProblem problem_ = MakeMatchedProblem({}, /*seed=*/1);
+  const KnownProblem problem_ = MakeMatchedProblem({}, /*seed=*/1);
   const Points& source_ = problem_.source;
   const Points& target_ = problem_.target;
   const DistinctMatches distinct_ = FindDistinctMatches(source_, target_);

@@ -60,7 +60,7 @@ QuasiSo3 YawUnderSeventyPercentOutliers() {
   options.num_inliers = 60;
   options.num_outliers = 140;
   options.translation.setZero();
-  const MatchedProblem problem = MakeMatchedProblem(options, 1);
+  const KnownProblem problem = MakeMatchedProblem(options, 1);
   return {problem.source, problem.target, 0.3};
 }
 

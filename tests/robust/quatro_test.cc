@@ -35,8 +35,7 @@ QuatroOptions PaperStages() {
   return options;
 }
 
-QuatroSummary Solve(const MatchedProblem& problem,
-                    const QuatroOptions& options) {
+QuatroSummary Solve(const KnownProblem& problem, const QuatroOptions& options) {
   return SolveQuatro(problem.source, problem.target, options);
 }
 
@@ -60,7 +59,7 @@ void ExpectSameBits(const QuatroSummary& a, const QuatroSummary& b) {
 }
 
 // The largest error of the pose where the points are [m].
-double PoseError(const QuatroSummary& summary, const MatchedProblem& problem) {
+double PoseError(const QuatroSummary& summary, const KnownProblem& problem) {
   return LargestDisplacement(*summary.target_from_source,
                              problem.true_target_from_source,
                              problem.source);
@@ -70,7 +69,7 @@ double PoseError(const QuatroSummary& summary, const MatchedProblem& problem) {
 class QuatroTest : public ::testing::TestWithParam<bool> {
  protected:
   const QuatroOptions options_ = GetParam() ? QuatroOptions() : PaperStages();
-  const MatchedProblem problem_ =
+  const KnownProblem problem_ =
       MakeMatchedProblem({.num_inliers = 40, .num_outliers = 160}, /*seed=*/1);
 };
 
@@ -83,7 +82,7 @@ TEST_P(QuatroTest, RecoversThePoseFromNoneTo95PercentOutliers) {
   constexpr Eigen::Index kNumMatches = 600;
   for (const Eigen::Index num_inliers : {600, 300, 120, 60, 30}) {
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
-      const MatchedProblem problem =
+      const KnownProblem problem =
           MakeMatchedProblem({.num_inliers = num_inliers,
                               .num_outliers = kNumMatches - num_inliers,
                               .yaw = 1.5 * static_cast<double>(seed) - 3.0},
@@ -207,7 +206,7 @@ TEST_P(QuatroTest, SwappingSourceAndTargetInvertsThePose) {
 
 TEST_P(QuatroTest, CoordinatesOfTenThousandKilometresAreAsGood) {
   const Eigen::Vector3d far(1e7, -2e7, 1e4);  // [m], e.g. UTM.
-  MatchedProblem moved = problem_;
+  KnownProblem moved = problem_;
   moved.source.colwise() += far;
   moved.target.colwise() += far;
   const QuatroSummary summary = Solve(moved, options_);
@@ -222,7 +221,7 @@ TEST_P(QuatroTest, CoordinatesOfTenThousandKilometresAreAsGood) {
 }
 
 TEST_P(QuatroTest, AMatchAtTheEndOfTheWorldChangesNothing) {
-  MatchedProblem problem = problem_;
+  KnownProblem problem = problem_;
   const Eigen::Index n = problem.source.cols();
   for (const double far : {1e7, 1e12}) {
     problem.source.conservativeResize(3, n + 1);
@@ -242,8 +241,7 @@ class SmallCliqueTest : public QuatroTest {
  protected:
   static constexpr double kNoise = 0.02;  // [m]
 
-  MatchedProblem ProblemWith(Eigen::Index num_inliers,
-                             std::uint64_t seed) const {
+  KnownProblem ProblemWith(Eigen::Index num_inliers, std::uint64_t seed) const {
     return MakeInconsistentProblem(
         {.num_inliers = num_inliers, .num_outliers = 40, .noise = kNoise},
         2.0 * options_.noise_bound,
@@ -262,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(,
 TEST_P(SmallCliqueTest, TwoOrThreeTrueMatchesAreEnoughForTheYaw) {
   for (const Eigen::Index num_inliers : {2, 3}) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-      const MatchedProblem problem = ProblemWith(num_inliers, seed);
+      const KnownProblem problem = ProblemWith(num_inliers, seed);
       const QuatroSummary summary = Solve(problem, options_);
       ASSERT_TRUE(summary.IsUsable()) << summary.message;
       EXPECT_EQ(summary.num_tims, num_inliers == 2 ? 1 : 3);
@@ -363,7 +361,7 @@ TEST_P(QuatroTest, MatchesOnAPlumbLineHoldNone) {
 TEST_P(QuatroTest, MatchesOnAPlumbLineWithNoiseHoldNone) {
   // A pole: its noise has some heading, which is not the pose's.
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    MatchedProblem problem =
+    KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 30, .num_outliers = 0}, seed);
     Random random(seed);
     for (const Eigen::Index i : problem.inliers) {
@@ -380,7 +378,7 @@ TEST_P(QuatroTest, MatchesOnAPlumbLineWithNoiseHoldNone) {
 
 TEST_P(QuatroTest, PointsThatAreNotFiniteAreRefused) {
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
-    MatchedProblem problem = problem_;
+    KnownProblem problem = problem_;
     problem.source(1, 17) = bad;
     ExpectNoAnswer(Solve(problem, options_), PoseTermination::kInvalidInput);
     problem = problem_;
@@ -436,7 +434,7 @@ TEST(QuatroYaw, HeightsHaveNoPartInIt) {
   QuatroOptions options = PaperStages();
   options.consistency_test = ConsistencyTest::kPlanar;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    MatchedProblem problem = MakeMatchedProblem(
+    KnownProblem problem = MakeMatchedProblem(
         {.num_inliers = 40, .num_outliers = 80, .noise = 0.0}, seed);
     Random random(seed);
     for (const Eigen::Index i : problem.inliers) {
@@ -453,7 +451,7 @@ TEST(QuatroExtensions, RecoverTrueMatchesThatTheCliqueLeftOut) {
   // 20 true ones and 180 that are wrong in z alone.
   int num_recovered = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    MatchedProblem problem =
+    KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 200, .num_outliers = 0}, seed);
     Random random(seed);
     for (Eigen::Index i = 20; i < 200; ++i) {
@@ -475,7 +473,7 @@ TEST(QuatroExtensions, RecoverTrueMatchesThatTheCliqueLeftOut) {
 // Every option shows.
 class QuatroOptionTest : public ::testing::Test {
  protected:
-  const MatchedProblem problem_ =
+  const KnownProblem problem_ =
       MakeMatchedProblem({.num_inliers = 60, .num_outliers = 60}, /*seed=*/1);
   QuatroOptions options_ = PaperStages();
 
@@ -563,7 +561,7 @@ TEST_F(QuatroOptionTest, NoiseBoundDecidesWhoIsAnInlier) {
 }
 
 TEST_F(QuatroOptionTest, ConsistencyTestAndTiltDecideWhatAgrees) {
-  MatchedProblem raised = problem_;
+  KnownProblem raised = problem_;
   for (const Eigen::Index i : raised.inliers) {
     raised.target(2, i) += 0.03 * raised.target(0, i);  // A slope.
     raised.target(2, i) *= 1.3;
@@ -591,7 +589,7 @@ TEST_F(QuatroOptionTest, ExactYawSolverTakesTheSweep) {
 TEST_F(QuatroOptionTest, CertificateIsNeverNegativeAndClosesWhereItIsReplaced) {
   options_.pruning = Pruning::kNone;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const MatchedProblem problem =
+    const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 20, .num_outliers = 80}, seed);
     const QuatroSummary graduated = Solve(problem, options_);
     ASSERT_TRUE(graduated.certificate.has_value());
@@ -603,7 +601,7 @@ TEST_F(QuatroOptionTest, CertificateIsNeverNegativeAndClosesWhereItIsReplaced) {
 }
 
 TEST_F(QuatroOptionTest, PolishFindsATilt) {
-  MatchedProblem tilted = problem_;
+  KnownProblem tilted = problem_;
   tilted.true_target_from_source.rotation =
       RotationZ(2.0) *
       Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitX()).toRotationMatrix();

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,9 @@ double OutlierProcess(TruncatedLeastSquares, double w, double mu) {
 }
 double OutlierProcess(GemanMcClure, double w, double mu) {
   return mu * (std::sqrt(w) - 1.0) * (std::sqrt(w) - 1.0);
+}
+double OutlierProcess(Welsch, double w, double mu) {
+  return w > 0.0 ? mu * (1.0 + w * (std::log(w) - 1.0)) : mu;
 }
 
 template <typename Surrogate>
@@ -37,7 +41,8 @@ double WeightByGridSearch(double r2, double mu, int num_steps) {
 
 template <typename Surrogate>
 class SurrogateTest : public ::testing::Test {};
-using Surrogates = ::testing::Types<TruncatedLeastSquares, GemanMcClure>;
+using Surrogates =
+    ::testing::Types<TruncatedLeastSquares, GemanMcClure, Welsch>;
 TYPED_TEST_SUITE(SurrogateTest, Surrogates);
 
 TYPED_TEST(SurrogateTest, WeightMinimisesResidualPlusOutlierProcess) {
@@ -62,6 +67,66 @@ TYPED_TEST(SurrogateTest, WeightFallsFromOneAndNeverBelowZero) {
       ASSERT_GE(weight, 0.0) << "r2 " << r2 << ", mu " << mu;
       previous = weight;
     }
+  }
+}
+
+TYPED_TEST(SurrogateTest, LossIsTheLeastOfResidualPlusOutlierProcess) {
+  constexpr int kNumSteps = 10000;
+  for (const double mu : {0.01, 0.3, 1.0, 4.0, 50.0, 1e4}) {
+    for (const double r2 : {0.0, 0.1, 0.5, 0.9, 1.0, 1.1, 2.0, 7.0, 200.0}) {
+      const double loss = TypeParam::Loss(r2, mu);
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k <= kNumSteps; ++k) {
+        const double w = static_cast<double>(k) / kNumSteps;
+        const double value = w * r2 + TypeParam::OutlierProcess(w, mu);
+        EXPECT_NEAR(TypeParam::OutlierProcess(w, mu),
+                    OutlierProcess(TypeParam(), w, mu),
+                    1e-12 * mu);
+        least = std::min(least, value);
+      }
+      EXPECT_GE(least, loss - 1e-12 * mu) << "r2 " << r2 << ", mu " << mu;
+      EXPECT_LE(least, loss + 2.0 * (r2 + 1.0) / kNumSteps)
+          << "r2 " << r2 << ", mu " << mu;
+      const double weight = TypeParam::Weight(r2, mu);
+      EXPECT_NEAR(weight * r2 + TypeParam::OutlierProcess(weight, mu),
+                  loss,
+                  1e-12 * std::max(1.0, mu))
+          << "r2 " << r2 << ", mu " << mu;
+    }
+  }
+}
+
+TYPED_TEST(SurrogateTest, WeightIsTheSlopeOfTheLoss) {
+  constexpr double kStep = 1e-6;
+  for (const double mu : {0.01, 0.3, 1.0, 4.0, 50.0}) {
+    for (const double r2 : {0.2, 0.6, 0.95, 1.3, 2.5, 7.0, 200.0}) {
+      const double slope =
+          (TypeParam::Loss(r2 + kStep, mu) - TypeParam::Loss(r2 - kStep, mu)) /
+          (2.0 * kStep);
+      EXPECT_NEAR(TypeParam::Weight(r2, mu), slope, 1e-6)
+          << "r2 " << r2 << ", mu " << mu;
+    }
+  }
+}
+
+TYPED_TEST(SurrogateTest, LossIsNothingForNoResidualAndAtMostTheSquare) {
+  for (const double mu : {0.01, 1.0, 50.0}) {
+    EXPECT_EQ(TypeParam::Loss(0.0, mu), 0.0) << "mu " << mu;
+    for (const double r2 : {0.01, 0.5, 1.0, 3.0, 1e6}) {
+      EXPECT_LE(TypeParam::Loss(r2, mu), r2) << "r2 " << r2 << ", mu " << mu;
+      EXPECT_GT(TypeParam::Loss(r2, mu), 0.0) << "r2 " << r2 << ", mu " << mu;
+    }
+  }
+}
+
+TEST(SurrogateLoss, InTheLimitIsTheLossItStandsFor) {
+  for (const double r2 : {0.0, 0.1, 0.5, 0.99, 1.01, 2.0, 7.0, 1e4}) {
+    EXPECT_NEAR(TruncatedLeastSquares::Loss(r2, 1e12), std::min(r2, 1.0), 1e-9)
+        << "r2 " << r2;
+    EXPECT_NEAR(GemanMcClure::Loss(r2, 1.0), r2 / (1.0 + r2), 1e-15)
+        << "r2 " << r2;
+    EXPECT_NEAR(Welsch::Loss(r2, 1.0), 1.0 - std::exp(-r2), 1e-15)
+        << "r2 " << r2;
   }
 }
 
@@ -128,6 +193,20 @@ TEST(GemanMcClure, FallsToOneWhereItIsExact) {
   EXPECT_EQ(GemanMcClure::NextMu(1.2, 1.4), 1.0);
   EXPECT_FALSE(GemanMcClure::IsExact(1.001));
   EXPECT_TRUE(GemanMcClure::IsExact(1.0));
+}
+
+TEST(Welsch, WeightByNumber) {
+  EXPECT_DOUBLE_EQ(Welsch::Weight(3.0, 1.5), std::exp(-2.0));
+  EXPECT_EQ(Welsch::Weight(1e9, 1.0), 0.0);
+}
+
+TEST(Welsch, StartsAndFallsAsGemanMcClureDoes) {
+  EXPECT_EQ(Welsch::InitialMu(9.0, GncStart::kPlainFit), 18.0);
+  EXPECT_EQ(Welsch::InitialMu(0.1, GncStart::kIdentity), 1.0);
+  EXPECT_DOUBLE_EQ(Welsch::NextMu(2.8, 1.4), 2.0);
+  EXPECT_EQ(Welsch::NextMu(1.2, 1.4), 1.0);
+  EXPECT_FALSE(Welsch::IsExact(1.001));
+  EXPECT_TRUE(Welsch::IsExact(1.0));
 }
 
 }  // namespace

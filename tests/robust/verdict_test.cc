@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 constexpr double kNoiseBound = 0.3;  // [m]
 
-Verdict JudgeTruth(const MatchedProblem& problem,
+Verdict JudgeTruth(const KnownProblem& problem,
                    const VerdictOptions& options = {}) {
   return JudgeConsensus(problem.source,
                         problem.target,
@@ -96,7 +96,7 @@ TEST(Log10BinomialTail, FallsWithTheCountAndRisesWithTheChance) {
 
 TEST(JudgeConsensus, RegistersAGoodConsensus) {
   for (const Eigen::Index num_inliers : {10, 20, 100}) {
-    const MatchedProblem problem =
+    const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = num_inliers, .num_outliers = 200},
                            /*seed=*/1);
     const Verdict verdict = JudgeTruth(problem);
@@ -121,7 +121,7 @@ TEST(JudgeConsensus, FalseAlarmsAreEquationOne) {
 }
 
 TEST(JudgeConsensus, ChanceIsTheShareOfAgreementAmongOtherPairings) {
-  const MatchedProblem problem = MakeMatchedProblem(
+  const KnownProblem problem = MakeMatchedProblem(
       {.num_outliers = 60, .half_widths = {3.0, 3.0, 1.0}}, /*seed=*/3);
   const Points moved = problem.true_target_from_source.Apply(problem.source);
   int num_agreeing = 0;
@@ -163,7 +163,7 @@ TEST(JudgeConsensus, OfTooFewMatchesIsAmbiguous) {
 }
 
 TEST(JudgeConsensus, CopiesAreNoEvidence) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/7);
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/7);
   const Verdict once = JudgeTruth(problem);
   const Verdict twice = JudgeConsensus(problem.source.replicate(1, 2),
                                        problem.target.replicate(1, 2),
@@ -186,7 +186,7 @@ TEST(JudgeConsensus, ReasonNamesTheNumbers) {
 }
 
 TEST(JudgeConsensus, ThresholdIsTheOption) {
-  const MatchedProblem problem = MakeMatchedProblem({}, /*seed=*/9);
+  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/9);
   const double log10_false_alarms = JudgeTruth(problem).log10_false_alarms;
   VerdictOptions options;
   options.max_log10_false_alarms = log10_false_alarms + 0.01;
@@ -232,7 +232,7 @@ TEST(JudgeSummary, DoesNotRegisterMatchesAtRandom) {
 
 TEST(JudgeSummary, RegistersWhatQuatroFoundAmongOutliers) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const MatchedProblem problem =
+    const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 20, .num_outliers = 180}, seed);
     const QuatroSummary summary =
         SolveQuatro(problem.source, problem.target, {});

@@ -84,10 +84,8 @@ Problem RandomProblem(Eigen::Index n,
 
 Problem FromTims(const MatchedProblem& tims, double bound) {
   const Eigen::Index n = tims.source.cols();
-  return {tims.source,
-          tims.target,
-          Weights::Ones(n),
-          Weights::Constant(n, bound)};
+  return {
+      tims.source, tims.target, Weights::Ones(n), Weights::Constant(n, bound)};
 }
 
 Problem Selected(const Problem& problem,
@@ -192,7 +190,6 @@ double LeastOverGrid(const Problem& problem) {
   }
   return problem.CostAt(0.5 * (low + high));
 }
-
 
 TEST(ExactYaw, IsTheLeastOverAllSubsets) {
   int num_answers = 0;
@@ -344,8 +341,8 @@ TEST(ExactYaw, LengthsThatDisagreeChangeTheCostAlone) {
   const Problem problem = RandomProblem(30, 1.0, 10.0, /*seed=*/3);
   Problem more{Points(3, 40), Points(3, 40), Weights(40), Weights(40)};
   more.source << problem.source, 10.0 * RandomPoints(10, 1.0, 1);
-  more.target << problem.target,
-      (1000.0 * RandomPoints(10, 1.0, 2)).colwise() + Eigen::Vector3d(5e3, 0, 0);
+  more.target << problem.target, (1000.0 * RandomPoints(10, 1.0, 2)).colwise() +
+                                     Eigen::Vector3d(5e3, 0, 0);
   more.weights << problem.weights, Weights::Constant(10, 0.7);
   more.bounds << problem.bounds, Weights::Constant(10, 0.5);
   const auto expected = problem.Solve();
@@ -535,6 +532,43 @@ TEST(ExactYaw, OneFromTheEndOfTheWorldDoesNotDrownTheOthers) {
       EXPECT_NEAR(exact->cost, LeastOverAllIntervals(problem), 1e-5)
           << far << " m, seed " << seed;
     }
+  }
+}
+
+TEST(ExactYaw, ArcsThatJustCloseAreAllOfTheCircle) {
+  // a + b = c up to rounding: no more than the last digit is beyond the bound.
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Problem problem = RandomProblem(8, 0.05, 0.5, seed);
+    Random random(seed);
+    for (Eigen::Index k = 0; k < 8; ++k) {
+      if (random.Below(2) == 0) continue;
+      problem.weights[k] = 1.0;
+      problem.bounds[k] = problem.source.col(k).head<2>().norm() +
+                          problem.target.col(k).head<2>().norm();
+    }
+    const auto exact = problem.Solve();
+    if (!exact) continue;
+    EXPECT_NEAR(exact->cost, LeastOverAllSubsets(problem), 1e-12)
+        << "seed " << seed << ", yaw " << exact->target_from_source;
+  }
+}
+
+TEST(ExactYaw, LengthsWhoseSquaresOverflowAreLeftOut) {
+  Problem problem = RandomProblem(20, 0.3, 10.0, /*seed=*/1);
+  const auto expected = problem.Solve();
+  ASSERT_TRUE(expected.has_value());
+  for (const double far : {1e155, 1e200, 1e308}) {
+    Problem more{Points(3, 22), Points(3, 22), Weights(22), Weights(22)};
+    more.source << problem.source, Eigen::Vector3d(far, far, 0.0),
+        Eigen::Vector3d(-far, far, 0.0);
+    more.target << problem.target, Eigen::Vector3d(-far, far, 0.0),
+        Eigen::Vector3d(far, far, 0.0);
+    more.weights << problem.weights, 1.0, 1.0;
+    more.bounds << problem.bounds, 0.3, 0.3;
+    const auto exact = more.Solve();
+    ASSERT_TRUE(exact.has_value()) << far << " m";
+    EXPECT_EQ(exact->target_from_source, expected->target_from_source)
+        << far << " m";
   }
 }
 

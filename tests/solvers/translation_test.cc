@@ -186,6 +186,25 @@ TEST(EstimateConsensus, FarOutliersLeaveNoResidue) {
   }
 }
 
+TEST(EstimateConsensus, GroupsFarApartDoNotMixTheirCosts) {
+  // Three times the same group, but for the digits that it loses far away.
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Vector group = 0.1 * RandomAxis(6, true, seed).values;
+    const Vector bounds = Filled(6, 0.3);
+    const double far = seed % 2 == 0 ? 1e10 : 1e12;
+    const Vector left = group.array() - far;
+    const Vector right = group.array() + far;
+    const double least = std::min({EstimateConsensus(left, bounds)->cost,
+                                   EstimateConsensus(group, bounds)->cost,
+                                   EstimateConsensus(right, bounds)->cost});
+    Vector values(18);
+    values << left, group, right;
+    EXPECT_NEAR(
+        EstimateConsensus(values, Filled(18, 0.3))->cost, 12.0 + least, 1e-12)
+        << "seed " << seed << ", groups " << far << " apart";
+  }
+}
+
 TEST(EstimateConsensus, OrderDoesNotMatterBitForBit) {
   const AxisProblem axis = RandomAxis(200, true, 11);
   const auto expected = EstimateConsensus(axis.values, axis.bounds);
@@ -279,7 +298,7 @@ TEST(EstimateTranslation, FindsTheShiftUnderOutliers) {
   MatchedProblemOptions options;
   options.yaw = 0.0;
   options.num_outliers = 360;
-  const MatchedProblem problem = MakeMatchedProblem(options, 13);
+  const KnownProblem problem = MakeMatchedProblem(options, 13);
   const auto estimate =
       EstimateTranslation(problem.source, problem.target, 0.2);
   for (int axis = 0; axis < 3; ++axis) {
@@ -293,7 +312,7 @@ TEST(EstimateTranslation, FindsTheShiftUnderOutliers) {
 }
 
 TEST(EstimateTranslation, SwappingSourceAndTargetTurnsItRound) {
-  const MatchedProblem problem = MakeMatchedProblem({.yaw = 0.0}, /*seed=*/14);
+  const KnownProblem problem = MakeMatchedProblem({.yaw = 0.0}, /*seed=*/14);
   const auto forward = EstimateTranslation(problem.source, problem.target, 0.2);
   const auto backward =
       EstimateTranslation(problem.target, problem.source, 0.2);

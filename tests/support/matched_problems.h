@@ -32,7 +32,7 @@ inline Points RandomPointsInBox(Eigen::Index num_points,
          });
 }
 
-struct MatchedProblem {
+struct KnownProblem {
   Points source;
   Points target;
   Rigid3 true_target_from_source;
@@ -50,11 +50,11 @@ struct MatchedProblemOptions {
 
 // Inliers and outliers in random order. An outlier's two points have nothing to
 // do with each other, but are where points are.
-inline MatchedProblem MakeMatchedProblem(const MatchedProblemOptions& options,
-                                         std::uint64_t seed) {
+inline KnownProblem MakeMatchedProblem(const MatchedProblemOptions& options,
+                                       std::uint64_t seed) {
   Random random(seed);
   const Eigen::Index n = options.num_inliers + options.num_outliers;
-  MatchedProblem problem;
+  KnownProblem problem;
   problem.true_target_from_source = {RotationZ(options.yaw),
                                      options.translation};
   problem.source = RandomPointsInBox(n, options.half_widths, &random);
@@ -81,11 +81,11 @@ inline MatchedProblem MakeMatchedProblem(const MatchedProblemOptions& options,
 // The same, and no outlier agrees with any other match in length or in planar
 // length, nor is nearer to it than twice `bound` [m]: the inliers are the
 // largest consistent set, however few they are.
-inline MatchedProblem MakeInconsistentProblem(
+inline KnownProblem MakeInconsistentProblem(
     const MatchedProblemOptions& options, double bound, std::uint64_t seed) {
   MatchedProblemOptions inliers_only = options;
   inliers_only.num_outliers = 0;
-  MatchedProblem problem = MakeMatchedProblem(inliers_only, seed);
+  KnownProblem problem = MakeMatchedProblem(inliers_only, seed);
   const auto agree = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::abs(a.norm() - b.norm()) <= 2.0 * bound ||
            std::abs(a.head<2>().norm() - b.head<2>().norm()) <= 2.0 * bound;
