@@ -103,6 +103,7 @@ Json MakeReport(const std::string& method,
   Json report;
   report["status"] = StatusName(verdict.status);
   report["reason"] = verdict.reason;
+  report["message"] = solution.message;
   report["target_from_source"] = nullptr;
   report["yaw_deg"] = nullptr;
   if (solution.IsUsable()) {

@@ -20,7 +20,8 @@ namespace quatro {
 
 using Json = nlohmann::ordered_json;
 
-// What both programs report: status, reason, target_from_source (4 rows of 4,
+// What both programs report: status and reason (the verdict's), message (the
+// estimator's), target_from_source (4 rows of 4,
 // or null), yaw_deg, counts, covariance, certificate, timings_ms, method.
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,

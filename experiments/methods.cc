@@ -104,4 +104,17 @@ PoseSolver MakeSolver(const std::string& name,
   return nullptr;
 }
 
+bool ApplySwitch(const std::string& flag,
+                 const std::string& text,
+                 bool* option,
+                 std::string* error) {
+  if (text == "on" || text == "off") {
+    *option = text == "on";
+  } else if (!text.empty()) {
+    *error = "--" + flag + "=" + text + ", must be on or off";
+    return false;
+  }
+  return true;
+}
+
 }  // namespace quatro

@@ -26,6 +26,13 @@ PoseSolver MakeSolver(const std::string& name,
                       const QuatroOptions& options,
                       std::string* error);
 
+// Sets *option by a flag's text: "on", "off", or empty for no change. For any
+// other text returns false and sets *error, which names the flag.
+bool ApplySwitch(const std::string& flag,
+                 const std::string& text,
+                 bool* option,
+                 std::string* error);
+
 }  // namespace quatro
 
 #endif  // QUATRO_EXPERIMENTS_METHODS_H_

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/ins_flags.h"
 #include "experiments/json_report.h"
 #include "experiments/matches_csv.h"
 #include "experiments/methods.h"
@@ -28,6 +29,24 @@ DEFINE_string(method,
               "quatro",
               "How to solve; --list_methods says what there is");
 DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_string(recover,
+              "",
+              "Translation again over all matches: on or off; empty: the "
+              "preset's");
+DEFINE_string(polish,
+              "",
+              "Roll and pitch on the inliers: on or off; empty: the preset's");
+DEFINE_string(ins_mode,
+              "none",
+              "Roll and pitch from an INS: none, relative, leveled or fused");
+DEFINE_string(source_rpy_deg,
+              "",
+              "The INS' roll,pitch,yaw of the source [deg]; x ahead, z up");
+DEFINE_string(target_rpy_deg, "", "The same of the target [deg]");
+DEFINE_double(ins_std_deg,
+              0.5,
+              "Standard deviation of each roll and pitch [deg], for fused");
+DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
 DEFINE_bool(crosscheck,
             false,
             "Solve every weighted subproblem by Ceres too and report the "
@@ -48,6 +67,15 @@ DEFINE_string(correspondences_out,
 
 namespace {
 
+std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
+  return quatro::ParseInsFlags({FLAGS_ins_mode,
+                                FLAGS_source_rpy_deg,
+                                FLAGS_target_rpy_deg,
+                                FLAGS_ins_std_deg,
+                                FLAGS_gravity},
+                               error);
+}
+
 constexpr char kUsage[] =
     "finds the pose between two scans of one place, far apart or not.\n"
     "\n"
@@ -65,6 +93,7 @@ constexpr char kUsage[] =
 std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     const quatro::PointCloud& source,
     const quatro::PointCloud& target,
+    const quatro::InsOptions& ins,
     std::string* error) {
   auto options = FLAGS_preset == "auto"
                      ? quatro::MakeAutoOptions(source, target)
@@ -86,8 +115,17 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   options->quatro.seed = FLAGS_seed;
   options->quatro.num_threads = FLAGS_threads;
   options->quatro.crosscheck = FLAGS_crosscheck;
+  if (!quatro::ApplySwitch("recover",
+                           FLAGS_recover,
+                           &options->quatro.recover_translation,
+                           error) ||
+      !quatro::ApplySwitch(
+          "polish", FLAGS_polish, &options->quatro.polish, error)) {
+    return std::nullopt;
+  }
   if (!options->IsValid(error)) return std::nullopt;
-  options->solver = quatro::MakeSolver(FLAGS_method, options->quatro, error);
+  options->solver =
+      quatro::MakeSolverWithIns(FLAGS_method, options->quatro, ins, error);
   if (!options->solver) return std::nullopt;
   return options;
 }
@@ -117,13 +155,15 @@ int main(int argc, char** argv) {
   if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
     return Fail(error);
   }
-  if (!OptionsFromFlags({}, {}, &error)) return Fail(error);
+  const auto ins = InsFromFlags(&error);
+  if (!ins) return Fail(error);
+  if (!OptionsFromFlags({}, {}, *ins, &error)) return Fail(error);
 
   const auto source = quatro::ReadCloud(FLAGS_source, &error);
   if (!source) return Fail(error);
   const auto target = quatro::ReadCloud(FLAGS_target, &error);
   if (!target) return Fail(error);
-  auto options = OptionsFromFlags(*source, *target, &error);
+  auto options = OptionsFromFlags(*source, *target, *ins, &error);
   if (!options) return Fail(error);
   options->progress = [](const quatro::StageTime& time) {
     std::fprintf(
@@ -152,6 +192,7 @@ int main(int argc, char** argv) {
                           {"preset", FLAGS_preset}};
   report["parameters"].update(quatro::DescribeOptions(options->front_end));
   report["parameters"].update(quatro::DescribeOptions(options->quatro));
+  report["parameters"].update(quatro::DescribeOptions(*ins));
   report["version"] = quatro::Version();
   std::fprintf(stderr,
                "%-12s %9.1f ms\n%s: %s\n",

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/ins_flags.h"
 #include "experiments/json_report.h"
 #include "experiments/matches_csv.h"
 #include "experiments/methods.h"
@@ -25,6 +26,24 @@ DEFINE_string(method,
               "auto",
               "How to solve; --list_methods says what there is");
 DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_string(recover,
+              "",
+              "Translation again over all matches: on or off; empty: the "
+              "preset's");
+DEFINE_string(polish,
+              "",
+              "Roll and pitch on the inliers: on or off; empty: the preset's");
+DEFINE_string(ins_mode,
+              "none",
+              "Roll and pitch from an INS: none, relative, leveled or fused");
+DEFINE_string(source_rpy_deg,
+              "",
+              "The INS' roll,pitch,yaw of the source [deg]; x ahead, z up");
+DEFINE_string(target_rpy_deg, "", "The same of the target [deg]");
+DEFINE_double(ins_std_deg,
+              0.5,
+              "Standard deviation of each roll and pitch [deg], for fused");
+DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
 DEFINE_bool(crosscheck,
             false,
             "Solve every weighted subproblem by Ceres too and report the "
@@ -38,6 +57,15 @@ DEFINE_string(json, "", "File for the answer; empty: standard output");
 DEFINE_string(picture, "", "PNG file for the points before and after");
 
 namespace {
+
+std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
+  return quatro::ParseInsFlags({FLAGS_ins_mode,
+                                FLAGS_source_rpy_deg,
+                                FLAGS_target_rpy_deg,
+                                FLAGS_ins_std_deg,
+                                FLAGS_gravity},
+                               error);
+}
 
 constexpr char kUsage[] =
     "finds the pose between matched points, most of them wrong.\n"
@@ -63,6 +91,14 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   options->quatro.seed = FLAGS_seed;
   options->quatro.num_threads = FLAGS_threads;
   options->quatro.crosscheck = FLAGS_crosscheck;
+  if (!quatro::ApplySwitch("recover",
+                           FLAGS_recover,
+                           &options->quatro.recover_translation,
+                           error) ||
+      !quatro::ApplySwitch(
+          "polish", FLAGS_polish, &options->quatro.polish, error)) {
+    return std::nullopt;
+  }
   if (!options->IsValid(error)) return std::nullopt;
   return options;
 }
@@ -92,8 +128,10 @@ int main(int argc, char** argv) {
   }
   const auto options = OptionsFromFlags(&error);
   if (!options) return Fail(error);
+  const auto ins = InsFromFlags(&error);
+  if (!ins) return Fail(error);
   const quatro::PoseSolver solver =
-      quatro::MakeSolver(FLAGS_method, options->quatro, &error);
+      quatro::MakeSolverWithIns(FLAGS_method, options->quatro, *ins, &error);
   if (!solver) return Fail(error);
   const auto matches = quatro::ReadMatches(FLAGS_correspondences, &error);
   if (!matches) return Fail(error);
@@ -113,6 +151,7 @@ int main(int argc, char** argv) {
   report["parameters"] = {{"correspondences", FLAGS_correspondences},
                           {"preset", FLAGS_preset}};
   report["parameters"].update(quatro::DescribeOptions(options->quatro));
+  report["parameters"].update(quatro::DescribeOptions(*ins));
   report["version"] = quatro::Version();
   std::fprintf(stderr,
                "%s: %s\n",

@@ -31,8 +31,10 @@ struct Limits {
 
 // Which of the lanes of `block` are consistent with lane `i` of `own`.
 template <ConsistencyTest kTest>
-inline __attribute__((always_inline)) Graph::Word TestBlock(
-    const Block& own, std::size_t i, const Block& block, const Limits& limits) {
+QUATRO_SIMD_INLINE Graph::Word TestBlock(const Block& own,
+                                         std::size_t i,
+                                         const Block& block,
+                                         const Limits& limits) {
   unsigned char passes[kLanes];
   for (std::size_t j = 0; j < kLanes; ++j) {
     const float ax = block.px[j] - own.px[i];

@@ -10,6 +10,7 @@
 
 #include "features/fpfh.h"
 #include "features/kd_tree.h"
+#include "features/matching.h"
 #include "features/normals.h"
 #include "features/voxel_grid.h"
 #include "robust/overlap.h"

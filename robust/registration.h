@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "features/matching.h"
 #include "features/point_cloud.h"
 #include "features/stopwatch.h"
+#include "features/tuple_test.h"
 #include "features/types.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"

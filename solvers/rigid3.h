@@ -49,9 +49,12 @@ inline Rigid3 Inverse(const Rigid3& b_from_a) {
   return {a_from_b, -(a_from_b * b_from_a.translation)};
 }
 
-// Counter-clockwise turn by `yaw` [rad] about z.
+// Counter-clockwise turn by `yaw` [rad] about z, which it leaves bit for bit.
 inline Eigen::Matrix3d RotationZ(double yaw) {
-  return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() << std::cos(yaw), -std::sin(yaw),
+      std::sin(yaw), std::cos(yaw);
+  return rotation;
 }
 
 // The yaw of R = R_z(yaw) R_y(pitch) R_x(roll). [rad], in [-pi, pi].

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/json_report.h"
 #include "experiments/matches_csv.h"
 #include "experiments/picture.h"
 #include "features/random.h"
@@ -187,6 +188,18 @@ TEST_F(SolveProgramTest, UnknownMethod) {
   ExpectRefusedFlag("--method=magic", "--method=magic", "must be");
 }
 
+TEST_F(SolveProgramTest, SwitchThatIsNeitherOnNorOff) {
+  ExpectRefusedFlag("--polish=maybe", "--polish=maybe", "must be on or off");
+}
+
+TEST_F(SolveProgramTest, JsonOntoTheInput) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(20, 1).matches);
+  ExpectBadInput("quatro_solve",
+                 {"--correspondences=" + path, "--json=" + path},
+                 path,
+                 "is also an input");
+}
+
 TEST_F(SolveProgramTest, StrayArgument) {
   ExpectRefusedFlag("stray", "stray", "not a flag");
 }
@@ -263,6 +276,30 @@ TEST_F(SolveProgramTest, RegistersAmongThreeQuartersOfWrongMatches) {
   EXPECT_LT((pose.translation - problem.target_from_source.translation).norm(),
             0.1);
   EXPECT_GE(report["counts"]["translation_inliers"].get<int>(), 90);
+}
+
+TEST_F(SolveProgramTest, PolishOffKeepsAllButTheHeadingAtZero) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(200, 3).matches);
+  const json off = ReportOf(Solve(path, {"--polish=off"}));
+  EXPECT_TRUE(off["unpolished_target_from_source"].is_null());
+  EXPECT_EQ(PoseOf(off).rotation(2, 2), 1.0);
+  const json on = ReportOf(Solve(path, {"--polish=on"}));
+  EXPECT_FALSE(on["unpolished_target_from_source"].is_null());
+  EXPECT_NE(PoseOf(on).rotation(2, 2), 1.0);
+}
+
+TEST_F(SolveProgramTest, VersionIsOneLine) {
+  const ProgramRun run = RunProgram("quatro_solve", {"--version"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.out, "quatro_solve " + Version() + "\n");
+}
+
+TEST_F(SolveProgramTest, CrosscheckReportsHowFarCeresIs) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(200, 4).matches);
+  const json report = ReportOf(Solve(path, {"--crosscheck"}))["crosscheck"];
+  EXPECT_GT(report["subproblems"], 0);
+  EXPECT_LT(report["max_rotation_difference_rad"], 1e-8);
+  EXPECT_LT(report["max_translation_difference_m"], 1e-8);
 }
 
 TEST_F(SolveProgramTest, RegistersFarFromTheOrigin) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "features/matching.h"
+#include "features/tuple_test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/tuple_test.h"
+
+#include <sstream>
+
+#include "features/random.h"
+
+namespace quatro {
+
+bool TupleTestOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(scale > 0.0 && scale < 1.0)) {
+    problem << "tuple_test.scale = " << scale << ", must be in (0, 1)";
+  } else if (num_triples_per_match < 1) {
+    problem << "tuple_test.num_triples_per_match = " << num_triples_per_match
+            << ", must be >= 1";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
+                                     const PointsRef& source,
+                                     const PointsRef& target,
+                                     const TupleTestOptions& options) {
+  const std::size_t n = matches.size();
+  if (n < 3) return matches;
+  const double s2 = options.scale * options.scale;
+  const auto sides_agree = [&](const Match& a, const Match& b) {
+    // Equation (1), squared.
+    const double p2 =
+        (source.col(a.source) - source.col(b.source)).squaredNorm();
+    const double q2 =
+        (target.col(a.target) - target.col(b.target)).squaredNorm();
+    return s2 * q2 < p2 && s2 * p2 < q2;
+  };
+
+  std::vector<bool> passes(n, false);
+  Random random(options.seed);
+  const std::size_t num_triples =
+      n * static_cast<std::size_t>(options.num_triples_per_match);
+  for (std::size_t triple = 0; triple < num_triples; ++triple) {
+    const std::size_t a = random.Below(n);
+    const std::size_t b = random.Below(n);
+    const std::size_t c = random.Below(n);
+    if (passes[a] && passes[b] && passes[c]) continue;
+    if (sides_agree(matches[a], matches[b]) &&
+        sides_agree(matches[b], matches[c]) &&
+        sides_agree(matches[c], matches[a])) {
+      passes[a] = passes[b] = passes[c] = true;
+    }
+  }
+  std::vector<Match> kept;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (passes[i]) kept.push_back(matches[i]);
+  }
+  return kept;
+}
+
+}  // namespace quatro

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The tuple test of FGR: a match is kept if, in one of the random triples it is
+// drawn into, the three sides agree in length,
+//
+//   s < |p_a - p_b| / |q_a - q_b| < 1/s   for all three sides.             (1)
+//
+// Source: Zhou, Park and Koltun, "Fast Global Registration", ECCV 2016.
+
+#ifndef QUATRO_FEATURES_TUPLE_TEST_H_
+#define QUATRO_FEATURES_TUPLE_TEST_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "features/matching.h"
+#include "features/types.h"
+
+namespace quatro {
+
+struct TupleTestOptions {
+  double scale = 0.95;  // s in (1), in (0, 1).
+  int num_triples_per_match = 100;
+  std::uint64_t seed = 0;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// The matches that pass, in their order. Fewer than three are returned as they
+// are: there is no triple to test them in.
+std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
+                                     const PointsRef& source,
+                                     const PointsRef& target,
+                                     const TupleTestOptions& options);
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_TUPLE_TEST_H_

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Quatro on slopes: roll and pitch from an INS, so that a turn about the
+// vertical is all that is left to find,
+//
+//   target_from_source = level_from_target^-1 R_z(yaw) level_from_source.  (1)
+//
+// The matches are turned into the level frames, once; Quatro finds yaw and
+// translation there, and (1) takes its answer back. Three ways:
+//
+//   relative  level_from_source = R_y R_x of the INS' rotation from source to
+//             target = R_z R_y R_x, level_from_target = I. The paper's; it
+//             needs the difference of the INS' yaws to be right, too.
+//   leveled   each cloud by its own roll and pitch. The yaws are not used.
+//   fused     leveled, then all of the pose on the inliers with the INS as a
+//             prior (solvers/ins_refinement.h), which takes out of the answer
+//             what the INS is off by, as far as the matches know better.
+//
+// An INS that knows the rotation from source to target alone: give that as the
+// source's attitude and zeros as the target's.
+
+#ifndef QUATRO_ROBUST_INS_H_
+#define QUATRO_ROBUST_INS_H_
+
+#include <Eigen/Core>
+#include <string>
+
+#include "features/types.h"
+#include "robust/quatro.h"
+#include "solvers/gravity.h"
+
+namespace quatro {
+
+enum class InsMode { kNone, kRelative, kLeveled, kFused };
+
+struct InsOptions {
+  InsMode mode = InsMode::kNone;  // kNone: of all this, `up` alone counts.
+
+  // World from body, both in one world; its z is up.
+  Attitude source_attitude;
+  Attitude target_attitude;
+
+  // Of each roll and pitch [rad], for InsMode::kFused.
+  double attitude_std = 0.0087;
+
+  // What is up in a cloud whose roll and pitch are zero, a unit vector. The
+  // body's axes are the cloud's turned by RotationBetween(up, z).
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// Column i of `source` is matched with column i of `target` [m].
+//
+// Of the summary, poses and columns are the given points'; `yaw` and the
+// estimate of `gnc` are of the level frames, along whose axes, too, inliers are
+// within the noise bound. The pose before the fusion is the unpolished one.
+QuatroSummary SolveQuatroWithIns(const PointsRef& source,
+                                 const PointsRef& target,
+                                 const QuatroOptions& options,
+                                 const InsOptions& ins);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_INS_H_
