@@ -20,11 +20,10 @@
 
 DEFINE_string(source, "", "The cloud to move: .bin (KITTI), .ply or .pcd");
 DEFINE_string(target, "", "The cloud to move it onto");
-DEFINE_string(
-    preset,
-    "kitti",
-    "kitti (64 beams outdoors), kitti_paper (the paper's parameters), "
-    "indoor (16 beams), or auto (from the clouds themselves)");
+DEFINE_string(preset,
+              "kitti",
+              "kitti (64 beams outdoors), paper or reference (as published), "
+              "indoor (16 beams), or auto (from the clouds themselves)");
 DEFINE_string(method,
               "quatro",
               "How to solve; --list_methods says what there is");
