@@ -90,6 +90,49 @@ Json Describe(const std::optional<YawCertificate>& certificate) {
           {"gap", OrNull(certificate->gap)}};
 }
 
+Json Describe(const Rival& rival) {
+  return {{"agreeing", rival.num_agreeing},
+          {"margin", rival.margin},
+          {"same_matches", rival.has_same_matches},
+          {"target_from_source", Rows(rival.target_from_source)}};
+}
+
+Json Describe(const GeometricEvidence& evidence) {
+  const auto& direction = evidence.weakest_direction;
+  const RivalPose& rival = evidence.rival;
+  return {{"structure_overlap", evidence.structure_overlap},
+          {"median_residual_voxels", evidence.median_residual},
+          {"contradicted_share", OrNull(evidence.contradicted_share)},
+          {"contradicted", evidence.num_contradicted},
+          {"weakest_share", evidence.weakest_share},
+          {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
+          {"coarse_overlap", rival.overlap},
+          {"rival_overlap", rival.rival_overlap},
+          {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
+}
+
+// What the verdict was made from.
+Json DescribeEvidence(const Verdict& verdict) {
+  Json evidence = {{"false_alarms", Json::array()}};
+  for (const FalseAlarms& alarms : verdict.false_alarms) {
+    evidence["false_alarms"].push_back(
+        {{"stage", alarms.stage},
+         {"tested", alarms.num_tested},
+         {"agreeing", alarms.num_agreeing},
+         {"chance", alarms.chance},
+         {"log10_false_alarms", alarms.log10_false_alarms}});
+  }
+  evidence["rival"] = verdict.rival ? Describe(*verdict.rival) : Json(nullptr);
+  evidence["geometry"] =
+      verdict.geometry ? Describe(*verdict.geometry) : Json(nullptr);
+  Json features = Json::object();
+  for (const Feature& feature : verdict.features) {
+    features[feature.name] = feature.value;
+  }
+  evidence["features"] = features;
+  return evidence;
+}
+
 // Microseconds are as fine as a clock is believed.
 double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
 
@@ -103,6 +146,7 @@ Json MakeReport(const std::string& method,
   Json report;
   report["status"] = StatusName(verdict.status);
   report["reason"] = verdict.reason;
+  report["probability"] = verdict.probability;
   report["message"] = solution.message;
   report["target_from_source"] = nullptr;
   report["yaw_deg"] = nullptr;
@@ -122,10 +166,7 @@ Json MakeReport(const std::string& method,
                       {"rotation_inliers", solution.num_rotation_inliers},
                       {"translation_inliers", solution.num_translation_inliers},
                       {"agreeing", verdict.num_agreeing}};
-  report["evidence"] = {
-      {"chance_of_agreement", verdict.chance_of_agreement},
-      {"log10_false_alarms", verdict.log10_false_alarms},
-      {"structure_overlap", OrNull(verdict.structure_overlap)}};
+  report["evidence"] = DescribeEvidence(verdict);
   report["covariance"] = nullptr;
   report["certificate"] = Describe(solution.certificate);
   if (solution.crosscheck) {
@@ -142,6 +183,10 @@ Json MakeReport(const std::string& method,
   }
   timings["total"] = Milliseconds(total_seconds);
   report["timings_ms"] = timings;
+  report["notes"] = Json::object();
+  for (const StageNote& note : solution.notes) {
+    report["notes"][note.stage] = note.text;
+  }
   report["method"] = method;
   return report;
 }

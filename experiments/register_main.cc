@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/explain.h"
 #include "experiments/ins_flags.h"
 #include "experiments/json_report.h"
 #include "experiments/matches_csv.h"
@@ -59,6 +60,10 @@ DEFINE_double(noise_bound,
 DEFINE_uint64(seed, 0, "Of all that is drawn at random");
 DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
 DEFINE_string(json, "", "File for the answer; empty: standard output");
+DEFINE_bool(explain,
+            false,
+            "Print what came of each stage in plain words, in place of the "
+            "JSON on standard output");
 DEFINE_string(picture, "", "PNG file for both clouds before and after");
 DEFINE_string(correspondences_out,
               "",
@@ -220,7 +225,10 @@ int main(int argc, char** argv) {
     if (!picture) return Fail(error);
     files.push_back({FLAGS_picture, *picture});
   }
-  files.push_back({FLAGS_json, report.dump(2) + "\n"});
+  if (!FLAGS_explain || !FLAGS_json.empty()) {
+    files.push_back({FLAGS_json, report.dump(2) + "\n"});
+  }
+  if (FLAGS_explain) files.push_back({"", quatro::Explain(report)});
   if (!quatro::WriteOutputs(files, &error)) return Fail(error);
   return summary.verdict.IsRegistered() ? quatro::kExitDone
                                         : quatro::kExitNotVouchedFor;

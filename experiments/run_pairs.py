@@ -11,16 +11,19 @@ optionally set. With tx,ty,tz,qx,qy,qz,qw a pair's pose is known,
     p_in_target = R(q) p_in_source + t,
 
 and the errors of an estimate are the angle of R_true^T R, the difference of the
-two yaws, and |t - t_true|. Without them the scans share no place, and the right
-answer is not to register them.
+two yaws, and |t - t_true|. Without them, or where a line leaves them empty, the
+scans share no place, and the right answer is not to register them.
 
-The summary goes to standard output, progress to standard error.
+The summary goes to standard output, progress to standard error. A run that was
+stopped is gone on with by the same command: what is done is in the output's
+name with .part added.
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
 import argparse
 import collections
 import concurrent.futures
 import csv
+import hashlib
 import io
 import json
 import math
@@ -40,7 +43,8 @@ COUNTS = ("source_voxels", "target_voxels", "correspondences", "clique", "rotati
 SUCCESS = {"success_2m_10deg": (2.0, 10.0), "success_0.6m_5deg": (0.6, 5.0),
            "success_0.3m_1deg": (0.3, 1.0)}
 RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "yaw_error_deg",
-                  "translation_error_m", *SUCCESS, "wrong_but_registered", *COUNTS, "total_ms")
+                  "translation_error_m", *SUCCESS, "wrong_but_registered", *COUNTS, "total_ms",
+                  "probability", "features")
 
 Pair = collections.namedtuple("Pair", "set source target pose")  # pose: (R, t) or None
 
@@ -111,8 +115,9 @@ def read_pairs(path, excluded):
         for name in ("source", "target"):
             if not row[name] or not (folder / row[name]).is_file():
                 raise BadInput(f"{where}, column {name}: there is no file {row[name]!r}")
+        has_pose = given and any(row[name] for name in POSE)
         pairs.append(Pair(row.get("set") or pathlib.Path(path).stem, row["source"], row["target"],
-                          parse_pose(row, where) if given else None))
+                          parse_pose(row, where) if has_pose else None))
     unknown = set(excluded) - {row.get("set") for _, row in rows}
     if unknown:
         raise BadInput(f"--exclude={min(unknown)}: {path} has no such set")
@@ -147,6 +152,9 @@ def measure(pair, report):
     counts = report.get("counts", {})
     result.update({name: counts.get(name, "") for name in COUNTS})
     result["total_ms"] = report.get("timings_ms", {}).get("total", "")
+    result["probability"] = report.get("probability", "")
+    features = report.get("evidence", {}).get("features", {})
+    result["features"] = ";".join(f"{name}={value:.6g}" for name, value in features.items())
     if pair.pose is None:
         result["wrong_but_registered"] = int(registered)
         return result
@@ -165,27 +173,64 @@ def measure(pair, report):
     return result
 
 
-def run_all(pairs, folder, program, flags, num_jobs):
+class Done:
+    """The results so far, on disk: a line each, after one that says of what run."""
+
+    def __init__(self, path, run):
+        self.path, self.results = path, {}
+        if not path:
+            return
+        head = json.dumps(run) + "\n"
+        try:
+            with open(path, encoding="utf-8") as file:
+                lines = file.readlines()
+        except FileNotFoundError:
+            lines = []
+        except OSError as error:
+            raise BadInput(f"{path}: {error.strerror}") from None
+        if lines and lines[0] != head:
+            raise BadInput(f"{path}: is what another run has done, with other flags or pairs; "
+                           "remove it to start anew")
+        # A line that a stop cut short is run again.
+        whole = [line for line in lines[1:] if line.endswith("\n")]
+        for line in whole:
+            index, result = json.loads(line)
+            self.results[index] = result
+        self.file = open(path, "w", encoding="utf-8", buffering=1)
+        self.file.write(head + "".join(whole))
+
+    def add(self, index, result):
+        self.results[index] = result
+        if self.path:
+            self.file.write(json.dumps([index, result]) + "\n")
+
+    def remove(self):
+        if self.path:
+            self.file.close()
+            os.unlink(self.path)
+
+
+def run_all(pairs, folder, program, flags, num_jobs, done):
     start = time.monotonic()
-    results = [None] * len(pairs)
+    left_over = [i for i in range(len(pairs)) if i not in done.results]
     with concurrent.futures.ThreadPoolExecutor(num_jobs) as pool:
-        futures = {pool.submit(register, pair, folder, program, flags): i
-                   for i, pair in enumerate(pairs)}
+        futures = {pool.submit(register, pairs[i], folder, program, flags): i for i in left_over}
         try:
             for num_done, future in enumerate(concurrent.futures.as_completed(futures), 1):
                 i = futures[future]
-                results[i] = result = measure(pairs[i], future.result())
+                result = measure(pairs[i], future.result())
+                done.add(i, result)
                 elapsed = time.monotonic() - start
-                left = round(elapsed / num_done * (len(pairs) - num_done))
+                left = round(elapsed / num_done * (len(left_over) - num_done))
                 errors = (f", {result['translation_error_m']} m {result['rotation_error_deg']} deg"
                           if result["translation_error_m"] else "")
-                print(f"{num_done}/{len(pairs)} {result['source']} -> {result['target']}: "
+                print(f"{len(done.results)}/{len(pairs)} {result['source']} -> {result['target']}: "
                       f"{result['status']}{errors}; {left // 60}:{left % 60:02d} left",
                       file=sys.stderr, flush=True)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-    return results
+    return [done.results[i] for i in range(len(pairs))]
 
 
 def format_results(results):
@@ -272,10 +317,15 @@ def main(args):
     pairs = read_pairs(options.pairs, options.exclude)
     if not os.access(options.program, os.X_OK) or os.path.isdir(options.program):
         raise BadInput(f"{options.program}: is not a program; build it or name it by --program")
+    list_hash = hashlib.sha256(pathlib.Path(options.pairs).read_bytes()).hexdigest()
+    run = [os.path.abspath(options.pairs), list_hash, options.exclude,
+           os.path.abspath(options.program), flags]
+    done = Done(options.output and options.output + ".part", run)
     results = run_all(pairs, pathlib.Path(options.pairs).parent, options.program, flags,
-                      int(options.jobs))
+                      int(options.jobs), done)
     if options.output:
         write_atomically(options.output, format_results(results))
+        done.remove()
     sys.stdout.write(format_summary(results))
 
 

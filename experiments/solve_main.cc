@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/explain.h"
 #include "experiments/ins_flags.h"
 #include "experiments/json_report.h"
 #include "experiments/matches_csv.h"
@@ -54,6 +55,10 @@ DEFINE_double(noise_bound,
 DEFINE_uint64(seed, 0, "Of all that is drawn at random");
 DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
 DEFINE_string(json, "", "File for the answer; empty: standard output");
+DEFINE_bool(explain,
+            false,
+            "Print what came of each stage in plain words, in place of the "
+            "JSON on standard output");
 DEFINE_string(picture, "", "PNG file for the points before and after");
 
 namespace {
@@ -139,12 +144,12 @@ int main(int argc, char** argv) {
   quatro::Stopwatch stopwatch;
   const quatro::PoseSummary summary = solver(matches->source, matches->target);
   const double total_seconds = stopwatch.Lap();
-  const quatro::Verdict verdict =
-      quatro::JudgeSummary(matches->source,
-                           matches->target,
-                           summary,
-                           options->quatro.noise_bound,
-                           options->verdict);
+  const quatro::Verdict verdict = quatro::Judge(matches->source,
+                                                matches->target,
+                                                summary,
+                                                options->quatro.noise_bound,
+                                                /*geometry=*/std::nullopt,
+                                                options->verdict);
 
   quatro::Json report = quatro::MakeReport(
       FLAGS_method, verdict, summary, summary.stage_times, total_seconds);
@@ -173,7 +178,10 @@ int main(int argc, char** argv) {
     if (!picture) return Fail(error);
     files.push_back({FLAGS_picture, *picture});
   }
-  files.push_back({FLAGS_json, report.dump(2) + "\n"});
+  if (!FLAGS_explain || !FLAGS_json.empty()) {
+    files.push_back({FLAGS_json, report.dump(2) + "\n"});
+  }
+  if (FLAGS_explain) files.push_back({"", quatro::Explain(report)});
   if (!quatro::WriteOutputs(files, &error)) return Fail(error);
   return verdict.IsRegistered() ? quatro::kExitDone
                                 : quatro::kExitNotVouchedFor;

@@ -74,9 +74,13 @@ struct Tally {
     num_right_rotations +=
         HasRightRotation(summary, problem, rotation_tolerance);
     num_right_translations += HasRightTranslation(summary, problem);
-    num_registered +=
-        JudgeSummary(problem.source, problem.target, summary, noise_bound, {})
-            .IsRegistered();
+    num_registered += Judge(problem.source,
+                            problem.target,
+                            summary,
+                            noise_bound,
+                            /*geometry=*/std::nullopt,
+                            {})
+                          .IsRegistered();
   }
 };
 

@@ -25,4 +25,24 @@ bool GncOptions::IsValid(std::string* error) const {
   return error->empty();
 }
 
+std::string DescribeGnc(GncTermination termination,
+                        std::size_t num_iterations) {
+  const auto after = [&] {
+    return std::to_string(num_iterations) + " iterations, then ";
+  };
+  switch (termination) {
+    case GncTermination::kInvalidOptions:
+      return "an option is out of range";
+    case GncTermination::kUndetermined:
+      return after() + "no weight was left that holds an answer";
+    case GncTermination::kAllInliers:
+      return "the plain fit explains all";
+    case GncTermination::kConverged:
+      return after() + "the weights were binary or the cost settled";
+    case GncTermination::kMaxNumIterations:
+      break;
+  }
+  return after() + "no more were allowed";
+}
+
 }  // namespace quatro

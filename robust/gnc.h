@@ -57,6 +57,9 @@ enum class GncTermination {
   kMaxNumIterations,  // Usable, but mu was still moving.
 };
 
+// "12 iterations, then the weights were binary or the cost settled" and so on.
+std::string DescribeGnc(GncTermination termination, std::size_t num_iterations);
+
 struct GncIteration {
   double mu = 0.0;
   double cost = 0.0;  // sum_i w_i r2_i.

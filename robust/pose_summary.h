@@ -38,6 +38,12 @@ struct CrosscheckReport {
   double max_translation_difference = 0.0;  // [m]
 };
 
+// What a stage did and why it stopped, for a reader.
+struct StageNote {
+  std::string stage;
+  std::string text;
+};
+
 struct PoseSummary {
   PoseTermination termination = PoseTermination::kInvalidInput;
   std::string message = "no estimator was called";
@@ -67,8 +73,17 @@ struct PoseSummary {
   std::optional<YawCertificate> certificate;
   std::optional<CrosscheckReport> crosscheck;
   std::vector<StageTime> stage_times;
+  std::vector<StageNote> notes;  // In the order of the stages; some have none.
 
   bool IsUsable() const { return target_from_source.has_value(); }
+
+  // The note of a stage, empty if it has none.
+  std::string Note(const std::string& stage) const {
+    for (const StageNote& note : notes) {
+      if (note.stage == stage) return note.text;
+    }
+    return {};
+  }
 };
 
 }  // namespace quatro

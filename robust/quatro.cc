@@ -112,6 +112,15 @@ std::optional<double> FindYaw(const QuasiSo3& rotation,
   return yaw;
 }
 
+std::string NoteMove(const Rigid3& before, const Rigid3& after) {
+  const double shift = (after.translation - before.translation).norm();
+  if (shift == 0.0) return "no other translation explains more";
+  std::ostringstream text;
+  text.precision(2);
+  text << "moved by " << shift << " m, which explains more of all matches";
+  return text.str();
+}
+
 }  // namespace
 
 bool QuatroOptions::IsValid(std::string* error) const {
@@ -175,6 +184,11 @@ QuatroSummary SolveQuatro(const PointsRef& source,
                            options,
                            &summary);
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
+  if (options.yaw_solver == YawSolver::kGnc) {
+    summary.notes.push_back(
+        {"rotation",
+         DescribeGnc(summary.gnc.termination, summary.gnc.iterations.size())});
+  }
   if (!yaw) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
@@ -197,14 +211,16 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   summary.stage_times.push_back({"translation", stopwatch.Lap()});
 
   if (options.recover_translation) {
+    const Rigid3 unrecovered = pose;
     pose = RecoverTranslation(
         matches.source, matches.target, pose, options.noise_bound);
+    summary.notes.push_back({"recovery", NoteMove(unrecovered, pose)});
     summary.stage_times.push_back({"recovery", stopwatch.Lap()});
   }
   if (options.polish) {
     const PolishSummary polish = Polish(
         matches.source, matches.target, consistent, pose, PolishFrom(options));
-    summary.polish_message = polish.message;
+    summary.notes.push_back({"polish", polish.message});
     if (polish.is_polished) {
       summary.unpolished_target_from_source = pose;
       pose = polish.target_from_source;

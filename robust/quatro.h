@@ -99,9 +99,8 @@ struct QuatroSummary : PoseSummary {
   // Of the yaw; not run for YawSolver::kExact.
   GncSummary<YawEstimate> gnc;
 
-  double yaw = 0.0;            // Before the polish [rad].
-  bool is_yaw_exact = false;   // Taken from the sweep, not from gnc.
-  std::string polish_message;  // What came of the polish.
+  double yaw = 0.0;           // Before the polish [rad].
+  bool is_yaw_exact = false;  // Taken from the sweep, not from gnc.
 };
 
 // Column i of `source` is matched with column i of `target` [m].

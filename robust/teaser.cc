@@ -129,6 +129,9 @@ TeaserSummary SolveTeaser(const PointsRef& source,
         SolveGnc<TruncatedLeastSquares>(rotation_problem, options.gnc);
   }
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
+  summary.notes.push_back(
+      {"rotation",
+       DescribeGnc(summary.gnc.termination, summary.gnc.iterations.size())});
   if (!summary.gnc.IsUsable()) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =

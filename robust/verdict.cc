@@ -4,68 +4,58 @@
 #include "robust/verdict.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <sstream>
-#include <vector>
+#include <utility>
 
 #include "robust/distinct_matches.h"
 
 namespace quatro {
 namespace {
 
-// Comparisons after which the chance of agreement is known well enough; it
-// takes crowded or very many matches to reach it.
-constexpr Eigen::Index kMaxComparisons = 10'000'000;
+double Percent(double share) { return std::round(100.0 * share); }
 
-// The share of pairings (i, j), i != j, with |q_j - p_i| <= bound on each axis.
-// Never zero: one agreement more is assumed than was seen.
-double MeasureChanceOfAgreement(const Points& moved,
-                                const Points& target,
-                                double bound) {
-  const Eigen::Index n = moved.cols();
-  std::vector<std::array<double, 3>> sorted;
-  sorted.reserve(static_cast<std::size_t>(n));
-  for (const auto q : target.colwise()) sorted.push_back({q.x(), q.y(), q.z()});
-  std::sort(sorted.begin(), sorted.end());
-
-  Eigen::Index num_agreeing = 0;
-  Eigen::Index num_sources = 0;
-  for (Eigen::Index compared = 0; num_sources < n && compared < kMaxComparisons;
-       ++num_sources) {
-    const Eigen::Vector3d p = moved.col(num_sources);
-    auto it =
-        std::lower_bound(sorted.begin(),
-                         sorted.end(),
-                         p.x() - bound,
-                         [](const auto& q, double x) { return q[0] < x; });
-    for (; it != sorted.end() && (*it)[0] <= p.x() + bound; ++it, ++compared) {
-      num_agreeing += std::abs((*it)[1] - p.y()) <= bound &&
-                      std::abs((*it)[2] - p.z()) <= bound;
-    }
-    // Its own match is no pairing at random.
-    num_agreeing -=
-        (target.col(num_sources) - p).cwiseAbs().maxCoeff() <= bound;
-  }
-  const auto num_pairings =
-      static_cast<double>(num_sources) *
-      static_cast<double>(std::max<Eigen::Index>(1, n - 1));
-  return std::min(
-      1.0,
-      static_cast<double>(std::max<Eigen::Index>(0, num_agreeing) + 1) /
-          num_pairings);
+// "2.3 m and 180 deg from the pose".
+std::string DescribeStep(const Rigid3& from, const Rigid3& to) {
+  std::ostringstream text;
+  text.precision(2);
+  text << (to.translation - from.translation).norm() << " m and "
+       << std::round(AngleBetween(from.rotation, to.rotation) * 180.0 / M_PI)
+       << " deg from the pose";
+  return text.str();
 }
 
-std::string Describe(const Verdict& verdict) {
+std::string DescribeMatches(const Verdict& verdict) {
   std::ostringstream text;
   text << verdict.num_agreeing << " of " << verdict.num_matches
        << " matches agree with the pose, ";
-  if (verdict.log10_false_alarms >= -1.0) {
+  const double log10_false_alarms =
+      verdict.false_alarms.back().log10_false_alarms;
+  if (log10_false_alarms >= -1.0) {
     text << "as some pose found by chance would do too";
   } else {
     text << "as one found by chance would in 1 of 1e"
-         << std::lround(std::floor(-verdict.log10_false_alarms)) << " problems";
+         << std::lround(std::floor(-log10_false_alarms)) << " problems";
+  }
+  return text.str();
+}
+
+// What speaks against the pose, if it does.
+std::string DescribeDoubts(const Verdict& verdict, const Rigid3& pose) {
+  std::ostringstream text;
+  if (verdict.rival && verdict.rival->margin < 2.0) {
+    text << "; " << verdict.rival->num_agreeing << " agree with another, "
+         << DescribeStep(pose, verdict.rival->target_from_source);
+  }
+  if (!verdict.geometry) return text.str();
+  const GeometricEvidence& geometry = *verdict.geometry;
+  if (geometry.Distinctness() < 0.1 && geometry.rival.rival_overlap > 0.0) {
+    text << "; the scans fit as well "
+         << DescribeStep(pose, geometry.rival.rival_target_from_source);
+  }
+  if (geometry.contradicted_share.value_or(0.0) > 0.3) {
+    text << "; " << Percent(*geometry.contradicted_share)
+         << " % of the surfaces stand where the other scan saw through";
   }
   return text.str();
 }
@@ -87,106 +77,73 @@ const char* StatusName(Status status) {
 }
 
 bool VerdictOptions::IsValid(std::string* error) const {
-  std::ostringstream problem;
-  if (!(max_log10_false_alarms <= 0.0)) {
-    problem << "max_log10_false_alarms = " << max_log10_false_alarms
-            << ", must be <= 0";
-  } else if (!(min_structure_overlap >= 0.0 && min_structure_overlap <= 1.0)) {
-    problem << "min_structure_overlap = " << min_structure_overlap
-            << ", must be in [0, 1]";
+  if (!(min_probability >= 0.0 && min_probability <= 1.0)) {
+    std::ostringstream problem;
+    problem << "min_probability = " << min_probability << ", must be in [0, 1]";
+    *error = problem.str();
+    return false;
   }
-  *error = problem.str();
-  return error->empty();
+  return rival.IsValid(error);
 }
 
-double Log10BinomialTail(Eigen::Index n, Eigen::Index k, double p) {
-  if (k <= 0 || p >= 1.0) return 0.0;
-  if (k > n || p <= 0.0) return -std::numeric_limits<double>::infinity();
-  // From the first term on, each is the one before it times (n-i)/(i+1)
-  // p/(1-p).
-  const auto log_term = [&](Eigen::Index i) {
-    const auto x = static_cast<double>(i);
-    const auto m = static_cast<double>(n);
-    return std::lgamma(m + 1.0) - std::lgamma(x + 1.0) -
-           std::lgamma(m - x + 1.0) + x * std::log(p) +
-           (m - x) * std::log1p(-p);
-  };
-  const double first = log_term(k);
-  double sum = 1.0;
-  double term = 1.0;
-  for (Eigen::Index i = k; i < n; ++i) {
-    term *=
-        static_cast<double>(n - i) / static_cast<double>(i + 1) * p / (1.0 - p);
-    sum += term;
-    if (term < 1e-17 * sum) break;
-  }
-  return std::min(0.0, (first + std::log(sum)) / std::log(10.0));
-}
-
-Verdict JudgeConsensus(const PointsRef& source,
-                       const PointsRef& target,
-                       const Rigid3& target_from_source,
-                       double noise_bound,
-                       const VerdictOptions& options) {
-  const DistinctMatches matches = FindDistinctMatches(source, target);
-  const Points moved = target_from_source.Apply(matches.source);
+Verdict Judge(const PointsRef& source,
+              const PointsRef& target,
+              const PoseSummary& summary,
+              double noise_bound,
+              const std::optional<GeometricEvidence>& geometry,
+              const VerdictOptions& options) {
   Verdict verdict;
-  verdict.num_matches = moved.cols();
-  verdict.num_agreeing =
-      ((matches.target - moved).cwiseAbs().colwise().maxCoeff().array() <=
-       noise_bound)
-          .count();
-  verdict.chance_of_agreement =
-      MeasureChanceOfAgreement(moved, matches.target, noise_bound);
+  if (!summary.IsUsable()) {
+    verdict.status = summary.termination == PoseTermination::kDegenerate
+                         ? Status::kDegenerate
+                         : Status::kInsufficient;
+    verdict.reason = summary.message;
+    verdict.num_matches = summary.num_distinct;
+    return verdict;
+  }
 
-  // Equation (1).
-  const auto n = static_cast<double>(verdict.num_matches);
-  verdict.log10_false_alarms = std::log10(std::max(1.0, n * (n - 1.0) / 2.0)) +
-                               Log10BinomialTail(verdict.num_matches - 2,
-                                                 verdict.num_agreeing - 2,
-                                                 verdict.chance_of_agreement);
-  verdict.status = verdict.log10_false_alarms <= options.max_log10_false_alarms
+  const Rigid3& pose = *summary.target_from_source;
+  const DistinctMatches all =
+      FindDistinctMatches(summary.scale * source, target);
+  const DistinctMatches consistent =
+      FindDistinctMatches(summary.scale * Columns(source, summary.consistent),
+                          Columns(target, summary.consistent));
+  if (auto alarms = CliqueFalseAlarms(all.source,
+                                      all.target,
+                                      consistent.source,
+                                      consistent.target,
+                                      noise_bound)) {
+    verdict.false_alarms.push_back(std::move(*alarms));
+  }
+  if (auto alarms = RotationFalseAlarms(
+          consistent.source, consistent.target, pose, noise_bound)) {
+    verdict.false_alarms.push_back(std::move(*alarms));
+  }
+  verdict.false_alarms.push_back(
+      PoseFalseAlarms(all.source, all.target, pose, noise_bound));
+  verdict.num_matches = verdict.false_alarms.back().num_tested;
+  verdict.num_agreeing = verdict.false_alarms.back().num_agreeing;
+  verdict.rival =
+      FindRival(all.source, all.target, pose, noise_bound, options.rival);
+  verdict.geometry = geometry;
+
+  verdict.features =
+      MakeFeatures(verdict.false_alarms.back().log10_false_alarms,
+                   verdict.rival,
+                   verdict.geometry);
+  verdict.probability = ProbabilityOfSuccess(verdict.features);
+  verdict.status = verdict.probability >= options.min_probability
                        ? Status::kRegistered
                        : Status::kAmbiguous;
-  verdict.reason = Describe(verdict);
-  return verdict;
-}
-
-Verdict JudgeSummary(const PointsRef& source,
-                     const PointsRef& target,
-                     const PoseSummary& summary,
-                     double noise_bound,
-                     const VerdictOptions& options) {
-  if (summary.IsUsable()) {
-    return JudgeConsensus(summary.scale * source,
-                          target,
-                          *summary.target_from_source,
-                          noise_bound,
-                          options);
+  verdict.reason = DescribeMatches(verdict);
+  if (geometry) {
+    std::ostringstream text;
+    text << "; " << Percent(geometry->structure_overlap)
+         << " % of what stands in one scan is met in the other";
+    verdict.reason += text.str();
   }
-  Verdict verdict;
-  verdict.status = summary.termination == PoseTermination::kDegenerate
-                       ? Status::kDegenerate
-                       : Status::kInsufficient;
-  verdict.reason = summary.message;
-  verdict.num_matches = summary.num_distinct;
+  if (!verdict.IsRegistered()) verdict.reason += DescribeDoubts(verdict, pose);
   return verdict;
-}
-
-void AddOverlap(const std::optional<double>& structure_overlap,
-                const VerdictOptions& options,
-                Verdict* verdict) {
-  verdict->structure_overlap = structure_overlap;
-  if (!structure_overlap) return;
-  std::ostringstream text;
-  text << "; " << std::lround(100.0 * *structure_overlap)
-       << " % of what stands in one scan is met in the other";
-  if (*structure_overlap < options.min_structure_overlap) {
-    text << ", a right pose meets at least "
-         << std::lround(100.0 * options.min_structure_overlap) << " %";
-    if (verdict->IsRegistered()) verdict->status = Status::kAmbiguous;
-  }
-  verdict->reason += text.str();
 }
 
 }  // namespace quatro

@@ -110,21 +110,31 @@ TEST(JsonReportTest, EveryStatusHasItsName) {
   EXPECT_EQ(name_of(Status::kInsufficient), "insufficient");
 }
 
-TEST(JsonReportTest, OverlapIsNullWhereItWasNotMeasured) {
+TEST(JsonReportTest, EvidenceIsNullWhereItWasNotMeasured) {
+  const auto evidence_of = [](const Verdict& verdict) {
+    return MakeReport("quatro", verdict, PoseSummary(), {}, 0.0)["evidence"];
+  };
   Verdict verdict;
-  EXPECT_TRUE(MakeReport("quatro",
-                         verdict,
-                         PoseSummary(),
-                         {},
-                         0.0)["evidence"]["structure_overlap"]
-                  .is_null());
-  verdict.structure_overlap = 0.5;
-  EXPECT_EQ(MakeReport("quatro",
-                       verdict,
-                       PoseSummary(),
-                       {},
-                       0.0)["evidence"]["structure_overlap"],
-            0.5);
+  Json evidence = evidence_of(verdict);
+  EXPECT_TRUE(evidence["false_alarms"].empty());
+  EXPECT_TRUE(evidence["rival"].is_null());
+  EXPECT_TRUE(evidence["geometry"].is_null());
+  EXPECT_TRUE(evidence["features"].empty());
+
+  verdict.false_alarms.push_back({"pose", 100, 20, 0.25, -7.5});
+  verdict.rival.emplace();
+  verdict.rival->num_agreeing = 19;
+  verdict.geometry.emplace();
+  verdict.geometry->structure_overlap = 0.5;
+  verdict.features.push_back({"overlap", 0.5});
+  evidence = evidence_of(verdict);
+  EXPECT_EQ(evidence["false_alarms"][0]["stage"], "pose");
+  EXPECT_EQ(evidence["false_alarms"][0]["log10_false_alarms"], -7.5);
+  EXPECT_EQ(evidence["rival"]["agreeing"], 19);
+  EXPECT_EQ(evidence["rival"]["target_from_source"].size(), 4u);
+  EXPECT_EQ(evidence["geometry"]["structure_overlap"], 0.5);
+  EXPECT_TRUE(evidence["geometry"]["contradicted_share"].is_null());
+  EXPECT_EQ(evidence["features"]["overlap"], 0.5);
 }
 
 TEST(JsonReportTest, OptionsAreDescribedByTheirNamesInTheLibrary) {

@@ -266,7 +266,7 @@ TEST(Polish, IsWhatQuatroFallsBackFrom) {
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
   EXPECT_FALSE(summary.unpolished_target_from_source.has_value());
   EXPECT_EQ(summary.target_from_source->rotation, RotationZ(summary.yaw));
-  EXPECT_THAT(summary.polish_message, HasSubstr("do not hold roll and pitch"));
+  EXPECT_THAT(summary.Note("polish"), HasSubstr("do not hold roll and pitch"));
 }
 
 TEST(PolishOptions, ErrorNamesTheFieldThatIsOutOfRange) {

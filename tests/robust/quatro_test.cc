@@ -615,7 +615,7 @@ TEST_F(QuatroOptionTest, PolishFindsATilt) {
   const QuatroSummary polished = Solve(tilted, options_);
   ASSERT_TRUE(polished.IsUsable()) << polished.message;
   EXPECT_GT(PoseError(level, tilted), 0.5);
-  EXPECT_LT(PoseError(polished, tilted), 0.05) << polished.polish_message;
+  EXPECT_LT(PoseError(polished, tilted), 0.05) << polished.Note("polish");
   EXPECT_FALSE(level.unpolished_target_from_source.has_value());
   EXPECT_TRUE(polished.unpolished_target_from_source.has_value());
 }

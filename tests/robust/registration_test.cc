@@ -55,8 +55,12 @@ void ExpectSameBits(const RegistrationSummary& a,
   EXPECT_EQ(a.matched_source, b.matched_source);
   EXPECT_EQ(a.matched_target, b.matched_target);
   EXPECT_EQ(a.verdict.reason, b.verdict.reason);
-  EXPECT_EQ(a.verdict.log10_false_alarms, b.verdict.log10_false_alarms);
-  EXPECT_EQ(a.verdict.structure_overlap, b.verdict.structure_overlap);
+  EXPECT_EQ(a.verdict.probability, b.verdict.probability);
+  ASSERT_EQ(a.verdict.features.size(), b.verdict.features.size());
+  for (std::size_t j = 0; j < a.verdict.features.size(); ++j) {
+    EXPECT_EQ(a.verdict.features[j].value, b.verdict.features[j].value)
+        << a.verdict.features[j].name;
+  }
 }
 
 TEST_F(RegistrationTest, FindsTheMotionBetweenTwoScans) {
@@ -70,7 +74,7 @@ TEST_F(RegistrationTest, FindsTheMotionBetweenTwoScans) {
                                 source_.points),
             0.3)
       << summary.verdict.reason;
-  EXPECT_TRUE(summary.verdict.structure_overlap.has_value());
+  EXPECT_TRUE(summary.verdict.geometry.has_value());
   EXPECT_GT(summary.num_source_voxels, 1000);
   EXPECT_GT(summary.num_target_voxels, 1000);
   EXPECT_EQ(summary.matched_source.cols(), summary.matched_target.cols());
@@ -218,8 +222,8 @@ TEST(RegistrationOptions, ErrorNamesTheFieldAndNothingIsTried) {
                "noise_bound = 0");
   expect_error([](Options o) { o->quatro.gnc.max_num_iterations = 0; },
                "max_num_iterations = 0");
-  expect_error([](Options o) { o->verdict.min_structure_overlap = 2.0; },
-               "min_structure_overlap = 2");
+  expect_error([](Options o) { o->verdict.min_probability = 2.0; },
+               "min_probability = 2");
   expect_error([](Options o) { o->num_threads = -2; }, "num_threads = -2");
 }
 

@@ -24,77 +24,30 @@ using ::testing::HasSubstr;
 
 constexpr double kNoiseBound = 0.3;  // [m]
 
+// The true pose as an estimator's answer.
+PoseSummary TruthOf(const KnownProblem& problem) {
+  PoseSummary summary;
+  summary.termination = PoseTermination::kSolved;
+  summary.target_from_source = problem.true_target_from_source;
+  summary.consistent = problem.inliers;
+  return summary;
+}
+
 Verdict JudgeTruth(const KnownProblem& problem,
                    const VerdictOptions& options = {}) {
-  return JudgeConsensus(problem.source,
-                        problem.target,
-                        problem.true_target_from_source,
-                        kNoiseBound,
-                        options);
+  return Judge(problem.source,
+               problem.target,
+               TruthOf(problem),
+               kNoiseBound,
+               std::nullopt,
+               options);
 }
 
-// Term by term, from Pascal's triangle.
-double BinomialTail(int n, int k, double p) {
-  double tail = 0.0;
-  for (int i = std::max(k, 0); i <= n; ++i) {
-    double choose = 1.0;
-    for (int j = 0; j < i; ++j) choose = choose * (n - j) / (j + 1);
-    tail += choose * std::pow(p, i) * std::pow(1.0 - p, n - i);
-  }
-  return tail;
+double Log10FalseAlarms(const Verdict& verdict) {
+  return verdict.false_alarms.back().log10_false_alarms;
 }
 
-TEST(Log10BinomialTail, IsTheSumOfItsTermsForSmallNumbers) {
-  for (const int n : {0, 1, 2, 5, 12, 30}) {
-    for (int k = -1; k <= n; ++k) {
-      for (const double p : {1e-6, 0.01, 0.3, 0.5, 0.9, 0.999}) {
-        EXPECT_NEAR(Log10BinomialTail(n, k, p),
-                    std::log10(BinomialTail(n, k, p)),
-                    1e-11)
-            << "n " << n << ", k " << k << ", p " << p;
-      }
-    }
-  }
-}
-
-TEST(Log10BinomialTail, OfAllIsThePower) {
-  EXPECT_NEAR(Log10BinomialTail(1000, 1000, 0.01), -2000.0, 1e-9);
-  EXPECT_NEAR(Log10BinomialTail(100000, 100000, 0.1), -100000.0, 1e-6);
-}
-
-TEST(Log10BinomialTail, OfLargeNumbersDoesNotUnderOrOverflow) {
-  // P[B(1000, 1/2) >= 600] = 1.3642e-10, and half and half at the middle.
-  EXPECT_NEAR(Log10BinomialTail(1000, 600, 0.5), -9.865, 1e-3);
-  EXPECT_NEAR(Log10BinomialTail(10001, 5001, 0.5), std::log10(0.5), 1e-9);
-  EXPECT_NEAR(Log10BinomialTail(1000000, 10, 0.9), 0.0, 1e-12);
-  // The first term rules: C(10000, 500) 1e-4^500, and hardly more.
-  EXPECT_NEAR(Log10BinomialTail(10000, 500, 1e-4),
-              (std::lgamma(10001.0) - std::lgamma(501.0) - std::lgamma(9501.0) +
-               500.0 * std::log(1e-4) + 9500.0 * std::log1p(-1e-4)) /
-                  std::log(10.0),
-              1e-2);
-}
-
-TEST(Log10BinomialTail, OfTheImpossibleAndTheCertain) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(Log10BinomialTail(10, 11, 0.5), -infinity);
-  EXPECT_EQ(Log10BinomialTail(10, 1, 0.0), -infinity);
-  EXPECT_EQ(Log10BinomialTail(10, 10, 1.0), 0.0);
-  EXPECT_EQ(Log10BinomialTail(10, 0, 0.5), 0.0);
-  EXPECT_EQ(Log10BinomialTail(-2, -2, 0.5), 0.0);
-}
-
-TEST(Log10BinomialTail, FallsWithTheCountAndRisesWithTheChance) {
-  for (Eigen::Index k = 1; k <= 200; ++k) {
-    ASSERT_LT(Log10BinomialTail(200, k, 0.05),
-              Log10BinomialTail(200, k - 1, 0.05) + 1e-15)
-        << "k " << k;
-    ASSERT_LE(Log10BinomialTail(200, k, 0.05), Log10BinomialTail(200, k, 0.06))
-        << "k " << k;
-  }
-}
-
-TEST(JudgeConsensus, RegistersAGoodConsensus) {
+TEST(Judge, RegistersAGoodConsensus) {
   for (const Eigen::Index num_inliers : {10, 20, 100}) {
     const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = num_inliers, .num_outliers = 200},
@@ -104,48 +57,18 @@ TEST(JudgeConsensus, RegistersAGoodConsensus) {
     EXPECT_EQ(verdict.num_matches, num_inliers + 200);
     EXPECT_GE(verdict.num_agreeing, num_inliers);
     EXPECT_LT(verdict.num_agreeing, num_inliers + 3);
-    EXPECT_LE(verdict.log10_false_alarms, -3.0);
+    EXPECT_LE(Log10FalseAlarms(verdict), -3.0);
   }
 }
 
-TEST(JudgeConsensus, FalseAlarmsAreEquationOne) {
-  const Verdict verdict =
-      JudgeTruth(MakeMatchedProblem({.num_inliers = 30}, /*seed=*/2));
-  const double n = 70.0;
-  EXPECT_NEAR(
-      verdict.log10_false_alarms,
-      std::log10(n * (n - 1.0) / 2.0) +
-          Log10BinomialTail(
-              68, verdict.num_agreeing - 2, verdict.chance_of_agreement),
-      1e-12);
-}
-
-TEST(JudgeConsensus, ChanceIsTheShareOfAgreementAmongOtherPairings) {
-  const KnownProblem problem = MakeMatchedProblem(
-      {.num_outliers = 60, .half_widths = {3.0, 3.0, 1.0}}, /*seed=*/3);
-  const Points moved = problem.true_target_from_source.Apply(problem.source);
-  int num_agreeing = 0;
-  for (Eigen::Index i = 0; i < 100; ++i) {
-    for (Eigen::Index j = 0; j < 100; ++j) {
-      const double worst =
-          (problem.target.col(j) - moved.col(i)).cwiseAbs().maxCoeff();
-      num_agreeing += i != j && worst <= kNoiseBound;
-    }
-  }
-  EXPECT_GT(num_agreeing, 20);
-  EXPECT_NEAR(JudgeTruth(problem).chance_of_agreement,
-              (num_agreeing + 1) / (100.0 * 99.0),
-              1e-12);
-}
-
-TEST(JudgeConsensus, OfTwoMatchesIsAmbiguous) {
+TEST(Judge, OfTwoMatchesIsAmbiguous) {
   const Verdict verdict = JudgeTruth(
       MakeMatchedProblem({.num_inliers = 2, .num_outliers = 100}, /*seed=*/4));
   EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
   EXPECT_THAT(verdict.reason, HasSubstr("by chance"));
 }
 
-TEST(JudgeConsensus, OfACrowdIsAmbiguous) {
+TEST(Judge, OfACrowdIsAmbiguous) {
   // All within the noise bound: any pose that brings them there will do.
   const Verdict verdict = JudgeTruth(MakeMatchedProblem(
       {.num_inliers = 100, .half_widths = {0.05, 0.05, 0.05}}, /*seed=*/5));
@@ -153,46 +76,126 @@ TEST(JudgeConsensus, OfACrowdIsAmbiguous) {
   EXPECT_GT(verdict.num_agreeing, 50);
 }
 
-TEST(JudgeConsensus, OfTooFewMatchesIsAmbiguous) {
+TEST(Judge, OfTooFewMatchesIsAmbiguous) {
   for (const Eigen::Index n : {0, 1, 2}) {
     const Verdict verdict = JudgeTruth(
         MakeMatchedProblem({.num_inliers = n, .num_outliers = 0}, /*seed=*/6));
     EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
-    EXPECT_GE(verdict.log10_false_alarms, 0.0) << n << " matches";
+    EXPECT_GE(Log10FalseAlarms(verdict), 0.0) << n << " matches";
   }
 }
 
-TEST(JudgeConsensus, CopiesAreNoEvidence) {
+TEST(Judge, CopiesAreNoEvidence) {
   const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/7);
   const Verdict once = JudgeTruth(problem);
-  const Verdict twice = JudgeConsensus(problem.source.replicate(1, 2),
-                                       problem.target.replicate(1, 2),
-                                       problem.true_target_from_source,
-                                       kNoiseBound,
-                                       {});
+  const Verdict twice = Judge(problem.source.replicate(1, 2),
+                              problem.target.replicate(1, 2),
+                              TruthOf(problem),
+                              kNoiseBound,
+                              std::nullopt,
+                              {});
   EXPECT_EQ(twice.num_matches, once.num_matches);
   EXPECT_EQ(twice.num_agreeing, once.num_agreeing);
-  EXPECT_EQ(twice.log10_false_alarms, once.log10_false_alarms);
+  EXPECT_EQ(Log10FalseAlarms(twice), Log10FalseAlarms(once));
+  EXPECT_EQ(twice.probability, once.probability);
 }
 
-TEST(JudgeConsensus, ReasonNamesTheNumbers) {
+TEST(Judge, StagesAreThoseWhereAConsensusIsChosen) {
+  const Verdict verdict = JudgeTruth(MakeMatchedProblem({}, /*seed=*/12));
+  ASSERT_EQ(verdict.false_alarms.size(), 3u);
+  EXPECT_EQ(verdict.false_alarms[0].stage, "clique");
+  EXPECT_EQ(verdict.false_alarms[1].stage, "rotation");
+  EXPECT_EQ(verdict.false_alarms[2].stage, "pose");
+  for (const FalseAlarms& alarms : verdict.false_alarms) {
+    EXPECT_LT(alarms.log10_false_alarms, -10.0) << alarms.stage;
+  }
+}
+
+TEST(Judge, ReasonNamesTheNumbers) {
   const Verdict verdict = JudgeTruth(
       MakeMatchedProblem({.num_inliers = 30, .num_outliers = 40}, /*seed=*/8));
   EXPECT_THAT(verdict.reason,
               HasSubstr(std::to_string(verdict.num_agreeing) + " of 70 "));
   EXPECT_THAT(verdict.reason,
               HasSubstr("1e" + std::to_string(static_cast<int>(
-                                   -verdict.log10_false_alarms))));
+                                   -Log10FalseAlarms(verdict)))));
 }
 
-TEST(JudgeConsensus, ThresholdIsTheOption) {
-  const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/9);
-  const double log10_false_alarms = JudgeTruth(problem).log10_false_alarms;
+TEST(Judge, ThresholdIsTheOption) {
+  const KnownProblem problem =
+      MakeMatchedProblem({.num_inliers = 12, .num_outliers = 60}, /*seed=*/9);
+  const double probability = JudgeTruth(problem).probability;
   VerdictOptions options;
-  options.max_log10_false_alarms = log10_false_alarms + 0.01;
+  options.min_probability = probability - 1e-9;
   EXPECT_TRUE(JudgeTruth(problem, options).IsRegistered());
-  options.max_log10_false_alarms = log10_false_alarms - 0.01;
+  options.min_probability = probability + 1e-9;
   EXPECT_EQ(JudgeTruth(problem, options).status, Status::kAmbiguous);
+}
+
+TEST(Judge, DoesNotRegisterAPoleAndALuckyMatch) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    // 20 matches on a pole, and one of 100 others that agrees with some yaw.
+    Random random(seed);
+    KnownProblem problem = MakeMatchedProblem(
+        {.num_inliers = 20, .num_outliers = 0, .half_widths = {0.1, 0.1, 3.0}},
+        seed);
+    Points pole = problem.source;
+    Points pole_target = problem.target;
+    problem = MakeMatchedProblem({.num_inliers = 1, .num_outliers = 99}, seed);
+    Points source(3, 120);
+    Points target(3, 120);
+    source << pole, problem.source;
+    target << pole_target, problem.target;
+    const QuatroSummary summary = SolveQuatro(source, target, {});
+    const Verdict verdict =
+        Judge(source, target, summary, kNoiseBound, std::nullopt, {});
+    EXPECT_FALSE(verdict.IsRegistered())
+        << "seed " << seed << ": " << verdict.reason;
+  }
+}
+
+TEST(Judge, DoesNotRegisterOneOfTwoTwins) {
+  KnownProblem problem =
+      MakeMatchedProblem({.num_inliers = 80, .num_outliers = 200}, /*seed=*/11);
+  const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d(2.0, 1.0, 0.0)};
+  for (std::size_t k = 0; k < 38; ++k) {
+    const Eigen::Index i = problem.inliers[k];
+    problem.target.col(i) = twin * Eigen::Vector3d(problem.target.col(i));
+  }
+  const Verdict verdict = JudgeTruth(problem);
+  EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
+  ASSERT_TRUE(verdict.rival);
+  EXPECT_GE(verdict.rival->num_agreeing, 38);
+  EXPECT_THAT(verdict.reason, HasSubstr("agree with another"));
+  EXPECT_THAT(verdict.reason, HasSubstr("180 deg"));
+}
+
+TEST(Judge, TakesTheCloudsIntoAccount) {
+  const KnownProblem problem =
+      MakeMatchedProblem({.num_inliers = 15, .num_outliers = 100}, /*seed=*/13);
+  const auto judge = [&](const GeometricEvidence& geometry) {
+    return Judge(problem.source,
+                 problem.target,
+                 TruthOf(problem),
+                 kNoiseBound,
+                 geometry,
+                 {});
+  };
+  GeometricEvidence good;
+  good.structure_overlap = 0.7;
+  good.contradicted_share = 0.03;
+  good.weakest_share = 0.3;
+  good.rival.overlap = 0.7;
+  good.rival.rival_overlap = 0.2;
+  EXPECT_TRUE(judge(good).IsRegistered()) << judge(good).reason;
+  GeometricEvidence bad = good;
+  bad.structure_overlap = 0.05;
+  bad.rival.overlap = 0.05;
+  bad.rival.rival_overlap = 0.04;
+  bad.contradicted_share = 0.6;
+  EXPECT_EQ(judge(bad).status, Status::kAmbiguous) << judge(bad).reason;
+  EXPECT_THAT(judge(bad).reason, HasSubstr("saw through"));
+  EXPECT_THAT(judge(bad).reason, HasSubstr("fit as well"));
 }
 
 // Where scans have their matches: near a plane and dense near the sensor.
@@ -208,7 +211,7 @@ Points ScanLikePoints(Eigen::Index n, Random* random) {
   return points;
 }
 
-TEST(JudgeSummary, DoesNotRegisterMatchesAtRandom) {
+TEST(Judge, DoesNotRegisterMatchesAtRandom) {
   int num_registered = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed);
@@ -221,7 +224,7 @@ TEST(JudgeSummary, DoesNotRegisterMatchesAtRandom) {
                                     : RandomPointsInBox(n, box, &random);
     const QuatroSummary summary = SolveQuatro(source, target, {});
     const Verdict verdict =
-        JudgeSummary(source, target, summary, kNoiseBound, {});
+        Judge(source, target, summary, kNoiseBound, std::nullopt, {});
     if (verdict.IsRegistered()) {
       ++num_registered;
       RecordProperty("registered_seed", static_cast<int>(seed));
@@ -230,71 +233,34 @@ TEST(JudgeSummary, DoesNotRegisterMatchesAtRandom) {
   EXPECT_LE(num_registered, 1) << "of 200";
 }
 
-TEST(JudgeSummary, RegistersWhatQuatroFoundAmongOutliers) {
+TEST(Judge, RegistersWhatQuatroFoundAmongOutliers) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 20, .num_outliers = 180}, seed);
     const QuatroSummary summary =
         SolveQuatro(problem.source, problem.target, {});
-    const Verdict verdict =
-        JudgeSummary(problem.source, problem.target, summary, kNoiseBound, {});
+    const Verdict verdict = Judge(
+        problem.source, problem.target, summary, kNoiseBound, std::nullopt, {});
     EXPECT_TRUE(verdict.IsRegistered())
         << "seed " << seed << ": " << verdict.reason;
   }
 }
 
-TEST(JudgeSummary, PassesOnWhyThereIsNoAnswer) {
+TEST(Judge, PassesOnWhyThereIsNoAnswer) {
   const Points none(3, 0);
   QuatroSummary summary = SolveQuatro(none, none, {});
-  Verdict verdict = JudgeSummary(none, none, summary, kNoiseBound, {});
+  Verdict verdict = Judge(none, none, summary, kNoiseBound, std::nullopt, {});
   EXPECT_EQ(verdict.status, Status::kInsufficient);
   EXPECT_EQ(verdict.reason, summary.message);
 
   Points pole = Points::Zero(3, 10);
   pole.row(2).setLinSpaced(10, 0.0, 9.0);
   summary = SolveQuatro(pole, pole, {});
-  verdict = JudgeSummary(pole, pole, summary, kNoiseBound, {});
+  verdict = Judge(pole, pole, summary, kNoiseBound, std::nullopt, {});
   EXPECT_EQ(verdict.status, Status::kDegenerate);
   EXPECT_EQ(verdict.reason, summary.message);
   EXPECT_EQ(verdict.num_matches, 10);
   EXPECT_FALSE(verdict.IsRegistered());
-}
-
-class AddOverlapTest : public ::testing::Test {
- protected:
-  Verdict registered_ = JudgeTruth(MakeMatchedProblem({}, /*seed=*/10));
-  VerdictOptions options_{.min_structure_overlap = 0.4};
-};
-
-TEST_F(AddOverlapTest, TooLittleMakesItAmbiguousAndSaysSo) {
-  ASSERT_TRUE(registered_.IsRegistered());
-  AddOverlap(0.39, options_, &registered_);
-  EXPECT_EQ(registered_.status, Status::kAmbiguous);
-  EXPECT_EQ(registered_.structure_overlap, 0.39);
-  EXPECT_THAT(registered_.reason, HasSubstr("39 %"));
-  EXPECT_THAT(registered_.reason, HasSubstr("at least 40 %"));
-}
-
-TEST_F(AddOverlapTest, EnoughLeavesItRegistered) {
-  AddOverlap(0.4, options_, &registered_);
-  EXPECT_TRUE(registered_.IsRegistered());
-  EXPECT_THAT(registered_.reason, HasSubstr("40 %"));
-}
-
-TEST_F(AddOverlapTest, NoneToSpeakOfChangesNothing) {
-  const std::string reason = registered_.reason;
-  AddOverlap(std::nullopt, options_, &registered_);
-  EXPECT_TRUE(registered_.IsRegistered());
-  EXPECT_EQ(registered_.reason, reason);
-}
-
-TEST_F(AddOverlapTest, DoesNotMakeAnAnswerOfNone) {
-  Verdict degenerate;
-  degenerate.status = Status::kDegenerate;
-  AddOverlap(0.9, options_, &degenerate);
-  EXPECT_EQ(degenerate.status, Status::kDegenerate);
-  AddOverlap(0.0, options_, &degenerate);
-  EXPECT_EQ(degenerate.status, Status::kDegenerate);
 }
 
 TEST(StatusName, IsTheWord) {
@@ -309,16 +275,14 @@ TEST(VerdictOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   std::string error;
   EXPECT_TRUE(VerdictOptions().IsValid(&error)) << error;
   EXPECT_TRUE(error.empty());
-  for (const double bad : {0.1, nan}) {
-    EXPECT_FALSE(
-        (VerdictOptions{.max_log10_false_alarms = bad}.IsValid(&error)));
-    EXPECT_THAT(error, HasSubstr("max_log10_false_alarms"));
-  }
   for (const double bad : {-0.1, 1.1, nan}) {
-    EXPECT_FALSE(
-        (VerdictOptions{.min_structure_overlap = bad}.IsValid(&error)));
-    EXPECT_THAT(error, HasSubstr("min_structure_overlap"));
+    EXPECT_FALSE((VerdictOptions{.min_probability = bad}.IsValid(&error)));
+    EXPECT_THAT(error, HasSubstr("min_probability"));
   }
+  VerdictOptions options;
+  options.rival.num_pairs = 0;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("num_pairs"));
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Lists pairs of scans of different places, out of a list of pairs of one place.
+
+    list_wrong_pairs.py --pairs=pairs.csv --output=wrong.csv [--same=SET,SET ...]
+
+Scans that a pair joins, directly or through others, are of one place; so are all
+scans of the sets that --same names. Of any two places --each pairs are listed,
+evenly over their scans, without a pose: no registration of them is right. The
+list is for run_pairs.py and holds absolute paths.
+
+Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+"""
+import argparse
+import csv
+import io
+import itertools
+import pathlib
+import sys
+
+import run_pairs
+
+
+def find_places(pairs, same):
+    """Lists of scans, those of one place each, in the order of the pairs."""
+    place = {}
+
+    def root(scan):
+        while place[scan] != scan:
+            scan = place[scan]
+        return scan
+
+    def join(a, b):
+        place[max(root(a), root(b))] = min(root(a), root(b))
+
+    first_of_group = {}
+    for pair in pairs:
+        for scan in (pair.source, pair.target):
+            place.setdefault(scan, scan)
+        join(pair.source, pair.target)
+        for k, group in enumerate(same):
+            if pair.set in group:
+                join(first_of_group.setdefault(k, pair.source), pair.source)
+    places = {}
+    for scan in place:
+        places.setdefault(root(scan), []).append(scan)
+    return list(places.values())
+
+
+def main(args):
+    parser = run_pairs.Parser(prog="list_wrong_pairs.py", description=__doc__, allow_abbrev=False,
+                              formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
+    parser.add_argument("--output", metavar="FILE.csv", required=True, help="the list to write")
+    parser.add_argument("--exclude", action="append", default=[], metavar="SET",
+                        help="leave out this set; may be repeated")
+    parser.add_argument("--same", action="append", default=[], metavar="SET,SET",
+                        help="sets that are of one place; may be repeated")
+    parser.add_argument("--each", type=int, default=3, metavar="N",
+                        help="pairs of any two places (default: 3)")
+    options = parser.parse_args(args)
+    if options.each < 1:
+        raise run_pairs.BadInput(f"--each={options.each}: must be > 0")
+    run_pairs.check_writable(options.output)
+    pairs = run_pairs.read_pairs(options.pairs, options.exclude)
+    places = find_places(pairs, [group.split(",") for group in options.same])
+    folder = pathlib.Path(options.pairs).resolve().parent
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(("set", "source", "target"))
+    for a, b in itertools.combinations(places, 2):
+        scans = list(itertools.product(a, b))
+        num_listed = min(options.each, len(scans))
+        for k in range(num_listed):
+            source, target = scans[k * len(scans) // num_listed]
+            writer.writerow(("different places", folder / source, folder / target))
+    run_pairs.write_atomically(options.output, text.getvalue())
+    print(f"{len(places)} places, {text.getvalue().count(chr(10)) - 1} pairs")
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except run_pairs.BadInput as problem:
+        print(f"list_wrong_pairs.py: {problem}", file=sys.stderr)
+        sys.exit(2)

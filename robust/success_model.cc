@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/success_model.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quatro {
+namespace {
+
+// From the output of experiments/calibrate_verdict.py.
+constexpr double kMatchesIntercept = -6.0;
+constexpr double kMatchesWeights[] = {1.0, 1.0};
+constexpr double kCloudsIntercept = -6.0;
+constexpr double kCloudsWeights[] = {1.0, 1.0, 4.0, 1.0, 1.0, 1.0};
+
+// What is assumed where free space is not known: it says little either way.
+constexpr double kUsualContradictedShare = 0.1;
+
+}  // namespace
+
+std::vector<Feature> MakeFeatures(
+    double log10_false_alarms,
+    const std::optional<Rival>& rival,
+    const std::optional<GeometricEvidence>& geometry) {
+  std::vector<Feature> features = {
+      {"surprise", std::log1p(std::clamp(-log10_false_alarms, 0.0, 100.0))},
+      {"margin", rival ? std::clamp(rival->margin, 0.0, 6.0) : 6.0}};
+  if (!geometry) return features;
+  features.push_back({"overlap", geometry->structure_overlap});
+  features.push_back(
+      {"free_space",
+       1.0 - geometry->contradicted_share.value_or(kUsualContradictedShare)});
+  features.push_back(
+      {"distinctness", std::clamp(geometry->Distinctness(), 0.0, 0.5)});
+  features.push_back(
+      {"held",
+       3.0 + std::log10(std::clamp(geometry->weakest_share, 1e-3, 0.5))});
+  return features;
+}
+
+double ProbabilityOfSuccess(const std::vector<Feature>& features) {
+  const bool has_clouds = features.size() != std::size(kMatchesWeights);
+  CHECK(!has_clouds || features.size() == std::size(kCloudsWeights));
+  double sum = has_clouds ? kCloudsIntercept : kMatchesIntercept;
+  for (std::size_t j = 0; j < features.size(); ++j) {
+    sum += (has_clouds ? kCloudsWeights[j] : kMatchesWeights[j]) *
+           features[j].value;
+  }
+  return 1.0 / (1.0 + std::exp(-sum));
+}
+
+}  // namespace quatro
