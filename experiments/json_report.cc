@@ -90,6 +90,22 @@ Json Describe(const std::optional<YawCertificate>& certificate) {
           {"gap", OrNull(certificate->gap)}};
 }
 
+Json Describe(const GeometricEvidence& evidence) {
+  const auto& direction = evidence.weakest_direction;
+  const RivalPose& rival = evidence.rival;
+  return {
+      {"median_residual_voxels", evidence.median_residual},
+      {"contradicted_share", OrNull(evidence.contradicted_share)},
+      {"contradicted", evidence.num_contradicted},
+      {"weakest_share", evidence.weakest_share},
+      {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
+      {"coarse_overlap", rival.overlap},
+      {"rival_overlap", rival.rival_overlap},
+      {"rival_yaw_deg", rival.yaw * 180.0 / M_PI},
+      {"rival_shift_m", {rival.shift.x(), rival.shift.y(), rival.shift.z()}},
+      {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
+}
+
 // Microseconds are as fine as a clock is believed.
 double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
 
@@ -126,6 +142,9 @@ Json MakeReport(const std::string& method,
       {"chance_of_agreement", verdict.chance_of_agreement},
       {"log10_false_alarms", verdict.log10_false_alarms},
       {"structure_overlap", OrNull(verdict.structure_overlap)}};
+  if (verdict.geometry) {
+    report["evidence"].update(Describe(*verdict.geometry));
+  }
   report["covariance"] = nullptr;
   report["certificate"] = Describe(solution.certificate);
   if (solution.crosscheck) {

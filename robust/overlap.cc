@@ -4,9 +4,7 @@
 #include "robust/overlap.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <vector>
 
 #include "features/parallel.h"
 
@@ -16,13 +14,20 @@ namespace {
 constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
 constexpr double kMinNormalCosine = 0.8;
 constexpr double kRangeQuantile = 0.75;
-constexpr int kMinStructure = 50;
+constexpr std::size_t kMinStructure = 50;
 
-double RangeQuantile(const Points& points, const Eigen::Vector3d& sensor) {
+}  // namespace
+
+bool IsStructure(const Eigen::Vector3d& normal) {
+  return !normal.isZero(0.0) && std::abs(normal.z()) <= kMaxVertical;
+}
+
+double UsefulRange(const SurfaceCloud& cloud) {
+  const Points& points = cloud.tree.points();
   std::vector<double> squared(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     squared[static_cast<std::size_t>(i)] =
-        (points.col(i) - sensor).squaredNorm();
+        (points.col(i) - cloud.sensor).squaredNorm();
   }
   if (squared.empty()) return 0.0;
   const auto at = squared.begin() +
@@ -32,41 +37,44 @@ double RangeQuantile(const Points& points, const Eigen::Vector3d& sensor) {
   return std::sqrt(*at);
 }
 
-// The share of a's structure that is met in b.
-std::optional<double> ShareMet(const SurfaceCloud& a,
-                               const SurfaceCloud& b,
-                               const Rigid3& b_from_a,
-                               double max_distance,
-                               int num_threads) {
+std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
+                                          const SurfaceCloud& b,
+                                          const Rigid3& b_from_a,
+                                          double max_distance,
+                                          int num_threads) {
   const Points& points = a.tree.points();
-  const double max_range = RangeQuantile(b.tree.points(), b.sensor);
-  std::atomic<int> num_structure{0};
-  std::atomic<int> num_met{0};
+  const double max_range = UsefulRange(b);
+  std::vector<StructurePoint> found;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!IsStructure(a.normals.col(i))) continue;
+    const Eigen::Vector3d point_in_b =
+        b_from_a * Eigen::Vector3d(points.col(i));
+    if ((point_in_b - b.sensor).norm() <= max_range) found.push_back({i});
+  }
   const auto look = [&](Eigen::Index begin, Eigen::Index end) {
-    int structure = 0;
-    int met = 0;
-    for (Eigen::Index i = begin; i < end; ++i) {
-      const auto normal = a.normals.col(i);
-      if (normal.isZero(0.0) || std::abs(normal.z()) > kMaxVertical) continue;
-      const Eigen::Vector3d point_in_b =
-          b_from_a * Eigen::Vector3d(points.col(i));
-      if ((point_in_b - b.sensor).norm() > max_range) continue;
-      ++structure;
-      const Neighbor nearest = b.tree.Nearest(point_in_b, 1).front();
-      const double cosine =
-          (b_from_a.rotation * normal).dot(b.normals.col(nearest.index));
-      met += nearest.squared_distance <= max_distance * max_distance &&
-             std::abs(cosine) > kMinNormalCosine;
+    for (Eigen::Index k = begin; k < end; ++k) {
+      StructurePoint& point = found[static_cast<std::size_t>(k)];
+      const Neighbor nearest =
+          b.tree.Nearest(b_from_a * Eigen::Vector3d(points.col(point.index)), 1)
+              .front();
+      const double cosine = (b_from_a.rotation * a.normals.col(point.index))
+                                .dot(b.normals.col(nearest.index));
+      point.nearest = nearest.index;
+      point.is_near = nearest.squared_distance <= max_distance * max_distance;
+      point.is_met = point.is_near && std::abs(cosine) > kMinNormalCosine;
     }
-    num_structure += structure;
-    num_met += met;
   };
-  ParallelFor(num_threads, points.cols(), 512, look);
-  if (num_structure < kMinStructure) return std::nullopt;
-  return static_cast<double>(num_met) / num_structure;
+  ParallelFor(num_threads, static_cast<Eigen::Index>(found.size()), 256, look);
+  return found;
 }
 
-}  // namespace
+std::optional<double> ShareMet(const std::vector<StructurePoint>& structure) {
+  if (structure.size() < kMinStructure) return std::nullopt;
+  const auto num_met = std::count_if(structure.begin(),
+                                     structure.end(),
+                                     [](const auto& p) { return p.is_met; });
+  return static_cast<double>(num_met) / static_cast<double>(structure.size());
+}
 
 std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
                                               const SurfaceCloud& target,
@@ -76,10 +84,10 @@ std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
   if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
     return std::nullopt;
   }
-  const auto of_source =
-      ShareMet(source, target, target_from_source, max_distance, num_threads);
-  const auto of_target = ShareMet(
-      target, source, Inverse(target_from_source), max_distance, num_threads);
+  const auto of_source = ShareMet(FindStructure(
+      source, target, target_from_source, max_distance, num_threads));
+  const auto of_target = ShareMet(FindStructure(
+      target, source, Inverse(target_from_source), max_distance, num_threads));
   if (!of_source || !of_target) return std::nullopt;
   return std::min(*of_source, *of_target);
 }

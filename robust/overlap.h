@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "features/kd_tree.h"
 #include "features/types.h"
@@ -28,7 +29,35 @@ struct SurfaceCloud {
   Eigen::Vector3d sensor;  // Where it stood, in the frame of the points [m].
   const KdTree& tree;      // Of the points [m].
   const Points& normals;   // Unit, or zero where there is none.
+
+  // All was seen from `sensor`, so that nothing stands before what was seen.
+  bool is_scan = true;
 };
+
+// Whether a surface with this normal stands; false for zero.
+bool IsStructure(const Eigen::Vector3d& normal);
+
+// The distance from the sensor that holds three quarters of the points [m]; 0
+// without points.
+double UsefulRange(const SurfaceCloud& cloud);
+
+// A structure point of one cloud and the nearest point of another.
+struct StructurePoint {
+  Eigen::Index index = 0;
+  Eigen::Index nearest = 0;
+  bool is_near = false;  // Within max_distance.
+  bool is_met = false;   // And the normals agree.
+};
+
+// Those of a's structure points that count, ascending. b must have points.
+std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
+                                          const SurfaceCloud& b,
+                                          const Rigid3& b_from_a,
+                                          double max_distance,
+                                          int num_threads);
+
+// The share that is met; nullopt of fewer than 50.
+std::optional<double> ShareMet(const std::vector<StructurePoint>& structure);
 
 // The smaller of the shares of structure of each scan that is met in the other,
 // in [0, 1]; the same with source and target swapped. Nullopt if either has

@@ -13,40 +13,50 @@
 #include "features/matching.h"
 #include "features/normals.h"
 #include "features/voxel_grid.h"
-#include "robust/overlap.h"
+#include "robust/evidence.h"
 
 namespace quatro {
 namespace {
 
 // Where the sensor stood: at the origin of a scan. A cloud that does not reach
-// around its origin is in the coordinates of a map; there, above its middle.
-Eigen::Vector3d AssumedSensor(const Points& points) {
-  const Eigen::Vector3d low = points.rowwise().minCoeff();
-  const Eigen::Vector3d high = points.rowwise().maxCoeff();
-  const Eigen::Vector3d margin = 0.5 * (high - low);
-  if ((low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0) {
-    return Eigen::Vector3d::Zero();
+// around its origin is in the coordinates of a map; there, above its middle,
+// from where it need not have been seen.
+struct AssumedSensor {
+  explicit AssumedSensor(const Points& points) {
+    const Eigen::Vector3d low = points.rowwise().minCoeff();
+    const Eigen::Vector3d high = points.rowwise().maxCoeff();
+    const Eigen::Vector3d margin = 0.5 * (high - low);
+    is_scan =
+        (low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0;
+    if (is_scan) return;
+    const Eigen::Vector3d middle = 0.5 * (low + high);
+    place = {middle.x(), middle.y(), high.z()};
   }
-  const Eigen::Vector3d middle = 0.5 * (low + high);
-  return {middle.x(), middle.y(), high.z()};
-}
+
+  bool is_scan = true;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // [m]
+};
 
 struct DescribedCloud {
-  Eigen::Vector3d sensor;
+  AssumedSensor sensor;
   KdTree tree;
   Points normals;
   Fpfh fpfh;
 };
 
+SurfaceCloud AsSurface(const DescribedCloud& cloud) {
+  return {cloud.sensor.place, cloud.tree, cloud.normals, cloud.sensor.is_scan};
+}
+
 DescribedCloud Describe(const Points& points,
                         const FrontEndOptions& options,
                         int num_threads) {
-  const Eigen::Vector3d sensor = AssumedSensor(points);
+  const AssumedSensor sensor(points);
   KdTree tree(points);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(tree, options.fpfh_radius, num_threads);
   Points normals = EstimateNormals(
-      points, neighborhoods, options.normal_radius, sensor, num_threads);
+      points, neighborhoods, options.normal_radius, sensor.place, num_threads);
   Fpfh fpfh = ComputeFpfh(points, normals, neighborhoods, num_threads);
   return {sensor, std::move(tree), std::move(normals), std::move(fpfh)};
 }
@@ -156,16 +166,20 @@ RegistrationSummary Register(const PointCloud& source,
                                  quatro.noise_bound,
                                  options.verdict);
   if (summary.solution.IsUsable()) {
-    // A voxel's mean may be off by about its size; two of them by more.
-    AddOverlap(
-        MeasureStructureOverlap(
-            {source_cloud.sensor, source_cloud.tree, source_cloud.normals},
-            {target_cloud.sensor, target_cloud.tree, target_cloud.normals},
-            *summary.solution.target_from_source,
-            5.0 / 3.0 * voxel_size,
-            options.num_threads),
-        options.verdict,
-        &summary.verdict);
+    EvidenceOptions evidence;
+    evidence.voxel_size = voxel_size;
+    summary.verdict.geometry =
+        MeasureGeometricEvidence(AsSurface(source_cloud),
+                                 AsSurface(target_cloud),
+                                 *summary.solution.target_from_source,
+                                 evidence,
+                                 options.num_threads);
+    finish_stage("evidence");
+    std::optional<double> overlap;
+    if (const auto& geometry = summary.verdict.geometry) {
+      overlap = geometry->structure_overlap;
+    }
+    AddOverlap(overlap, options.verdict, &summary.verdict);
   }
   finish_stage("verdict");
   summary.total_seconds = total.Lap();

@@ -27,6 +27,7 @@
 #include <string>
 
 #include "features/types.h"
+#include "robust/evidence.h"
 #include "robust/pose_summary.h"
 #include "solvers/rigid3.h"
 
@@ -63,7 +64,8 @@ struct Verdict {
   Eigen::Index num_agreeing = 0;     // k
   double chance_of_agreement = 0.0;  // p
   double log10_false_alarms = 0.0;   // log10 of (1); 0 where there is no pose.
-  std::optional<double> structure_overlap;  // robust/overlap.h.
+  std::optional<double> structure_overlap;    // robust/overlap.h.
+  std::optional<GeometricEvidence> geometry;  // Where clouds are at hand.
 
   bool IsRegistered() const { return status == Status::kRegistered; }
 };

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What the geometry of two aligned scans says of their pose, as numbers without
+// thresholds.
+//
+//   met structure     robust/overlap.h: how much of what stands is met
+//   residual          |n_q . (R p + t - q)| of a met p and its nearest q
+//   free space        robust/free_space.h: surfaces where a beam passed
+//   weakest share     least eigenvalue of  1/N sum_i m_i m_i^T,             (1)
+//                     m_i the horizontal part of the i-th met normal: what
+//                     holds the pose along the weakest direction, 0 in a
+//                     corridor and 1/2 where all directions are held alike
+//   rival             robust/rival_pose.h: where it would fit as well
+//
+// All are the same with source and target swapped, but for rounding to cells.
+
+#ifndef QUATRO_ROBUST_EVIDENCE_H_
+#define QUATRO_ROBUST_EVIDENCE_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "robust/overlap.h"
+#include "robust/rival_pose.h"
+#include "solvers/rigid3.h"
+
+namespace quatro {
+
+struct EvidenceOptions {
+  double voxel_size = 0.3;  // Of the clouds [m].
+
+  // A voxel's mean may be off by about its size; two of them by more.
+  double max_distance_in_voxels = 5.0 / 3.0;
+
+  RivalPoseOptions rival;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+struct GeometricEvidence {
+  double structure_overlap = 0.0;  // In [0, 1].
+  double median_residual = 0.0;    // Of met points [voxel sizes]; 0 if none.
+
+  // contradicted / (contradicted + met) over both ways, in [0, 1]. Nullopt if
+  // neither cloud is a scan or nothing was tested.
+  std::optional<double> contradicted_share;
+  Eigen::Index num_contradicted = 0;
+  Eigen::Index num_met = 0;  // Of the ways in which free space is known.
+
+  // Of equation (1), in the target's frame, z = 0 and its larger part > 0.
+  Eigen::Vector3d weakest_direction = Eigen::Vector3d::UnitX();
+  double weakest_share = 0.0;  // In [0, 1/2].
+
+  RivalPose rival;
+
+  // How much better the pose is than its rival, in [-1, 1].
+  double Distinctness() const { return rival.overlap - rival.rival_overlap; }
+};
+
+// Nullopt where the overlap is. The answer is the same for any `num_threads`.
+std::optional<GeometricEvidence> MeasureGeometricEvidence(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const EvidenceOptions& options,
+    int num_threads);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_EVIDENCE_H_
