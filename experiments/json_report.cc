@@ -100,15 +100,18 @@ Json Describe(const Rival& rival) {
 Json Describe(const GeometricEvidence& evidence) {
   const auto& direction = evidence.weakest_direction;
   const RivalPose& rival = evidence.rival;
-  return {{"structure_overlap", evidence.structure_overlap},
-          {"median_residual_voxels", evidence.median_residual},
-          {"contradicted_share", OrNull(evidence.contradicted_share)},
-          {"contradicted", evidence.num_contradicted},
-          {"weakest_share", evidence.weakest_share},
-          {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
-          {"coarse_overlap", rival.overlap},
-          {"rival_overlap", rival.rival_overlap},
-          {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
+  return {
+      {"structure_overlap", evidence.structure_overlap},
+      {"median_residual_voxels", evidence.median_residual},
+      {"contradicted_share", OrNull(evidence.contradicted_share)},
+      {"contradicted", evidence.num_contradicted},
+      {"weakest_share", evidence.weakest_share},
+      {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
+      {"coarse_overlap", rival.overlap},
+      {"rival_overlap", rival.rival_overlap},
+      {"rival_yaw_deg", rival.yaw * 180.0 / M_PI},
+      {"rival_shift_m", {rival.shift.x(), rival.shift.y(), rival.shift.z()}},
+      {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
 }
 
 // What the verdict was made from.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Comparison {
 
   // For what follows.
   void Turn(double yaw) {
+    if (yaw == yaw_) return;
+    yaw_ = yaw;
     turned_ = Moved({yaw});
     source_turned_ = target_grid_.Turn(source_sample_, turned_);
     target_turned_ = source_grid_.Turn(target_sample_, Inverse(turned_));
@@ -90,6 +93,7 @@ class Comparison {
   Rigid3 target_from_source_;
   Eigen::Vector3d middle_;
   Eigen::Matrix3d axes_;
+  double yaw_ = std::numeric_limits<double>::quiet_NaN();
   Rigid3 turned_;  // The pose after the turn, before any shift.
   TurnedSample source_turned_;
   TurnedSample target_turned_;

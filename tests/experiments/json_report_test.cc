@@ -137,6 +137,24 @@ TEST(JsonReportTest, EvidenceIsNullWhereItWasNotMeasured) {
   EXPECT_EQ(evidence["features"]["overlap"], 0.5);
 }
 
+TEST(JsonReportTest, GeometryIsThereWhereItWasMeasured) {
+  const auto evidence = [](const Verdict& verdict) {
+    return MakeReport("quatro", verdict, PoseSummary(), {}, 0.0)["evidence"];
+  };
+  Verdict verdict;
+  EXPECT_FALSE(evidence(verdict).contains("rival_overlap"));
+  verdict.geometry.emplace();
+  verdict.geometry->rival.rival_overlap = 0.25;
+  verdict.geometry->rival.yaw = -M_PI;
+  verdict.geometry->rival.shift << 1.0, 2.0, 3.0;
+  EXPECT_TRUE(evidence(verdict)["contradicted_share"].is_null());
+  verdict.geometry->contradicted_share = 0.5;
+  EXPECT_EQ(evidence(verdict)["contradicted_share"], 0.5);
+  EXPECT_EQ(evidence(verdict)["rival_overlap"], 0.25);
+  EXPECT_EQ(evidence(verdict)["rival_yaw_deg"], -180.0);
+  EXPECT_EQ(evidence(verdict)["rival_shift_m"], Json({1.0, 2.0, 3.0}));
+}
+
 TEST(JsonReportTest, OptionsAreDescribedByTheirNamesInTheLibrary) {
   RegistrationOptions options;
   options.quatro.noise_bound = 0.15;

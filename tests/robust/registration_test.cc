@@ -74,11 +74,23 @@ TEST_F(RegistrationTest, FindsTheMotionBetweenTwoScans) {
                                 source_.points),
             0.3)
       << summary.verdict.reason;
-  EXPECT_TRUE(summary.verdict.geometry.has_value());
+  ASSERT_TRUE(summary.verdict.geometry.has_value());
+  // Both are scans from their origins.
+  ASSERT_TRUE(summary.verdict.geometry->contradicted_share.has_value());
+  EXPECT_LE(*summary.verdict.geometry->contradicted_share, 0.05);
   EXPECT_GT(summary.num_source_voxels, 1000);
   EXPECT_GT(summary.num_target_voxels, 1000);
   EXPECT_EQ(summary.matched_source.cols(), summary.matched_target.cols());
   EXPECT_GE(summary.num_mutual_matches, summary.matched_source.cols());
+}
+
+TEST_F(RegistrationTest, FreeSpaceOfAMapIsNotKnown) {
+  const Eigen::Vector3d origin(500.0, -800.0, 30.0);
+  const PointCloud source = CloudOf(source_.points.colwise() + origin);
+  const PointCloud target = CloudOf(target_.points.colwise() + origin);
+  const RegistrationSummary summary = Register(source, target, options_);
+  ASSERT_TRUE(summary.verdict.geometry.has_value()) << summary.verdict.reason;
+  EXPECT_FALSE(summary.verdict.geometry->contradicted_share.has_value());
 }
 
 TEST_F(RegistrationTest, NumberOfThreadsDoesNotMatterBitForBit) {
