@@ -13,14 +13,14 @@
 namespace quatro {
 namespace {
 
-double Percent(double share) { return std::round(100.0 * share); }
+long Percent(double share) { return std::lround(100.0 * share); }
 
 // "2.3 m and 180 deg from the pose".
 std::string DescribeStep(const Rigid3& from, const Rigid3& to) {
   std::ostringstream text;
   text.precision(2);
   text << (to.translation - from.translation).norm() << " m and "
-       << std::round(AngleBetween(from.rotation, to.rotation) * 180.0 / M_PI)
+       << std::lround(AngleBetween(from.rotation, to.rotation) * 180.0 / M_PI)
        << " deg from the pose";
   return text.str();
 }

@@ -276,7 +276,8 @@ TEST(VerdictOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   EXPECT_TRUE(VerdictOptions().IsValid(&error)) << error;
   EXPECT_TRUE(error.empty());
   for (const double bad : {-0.1, 1.1, nan}) {
-    EXPECT_FALSE((VerdictOptions{.min_probability = bad}.IsValid(&error)));
+    EXPECT_FALSE(
+        (VerdictOptions{.min_probability = bad, .rival = {}}.IsValid(&error)));
     EXPECT_THAT(error, HasSubstr("min_probability"));
   }
   VerdictOptions options;
