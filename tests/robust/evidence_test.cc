@@ -143,7 +143,7 @@ TEST(GeometricEvidence, OfARightPoseSpeaksForIt) {
   EXPECT_LT(*evidence.contradicted_share, 0.02);
   EXPECT_GT(evidence.num_met, 1000);
   EXPECT_GT(evidence.weakest_share, 0.2);
-  EXPECT_GT(evidence.Distinctness(), 0.3);
+  EXPECT_GT(evidence.Distinctness(), 0.2);
   EXPECT_NEAR(evidence.rival.overlap, evidence.structure_overlap, 0.1);
 }
 
