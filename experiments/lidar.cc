@@ -87,6 +87,11 @@ bool LidarOptions::IsValid(std::string* error) const {
   } else if (steep != elevations.end()) {
     problem << "elevations[" << steep - elevations.begin() << "] = " << *steep
             << ", must be within +-pi/2";
+  } else if (!azimuth_offsets.empty() &&
+             azimuth_offsets.size() != elevations.size()) {
+    problem << "azimuth_offsets has " << azimuth_offsets.size()
+            << " numbers, must have none or one per beam, "
+            << elevations.size();
   } else if (num_columns < 1) {
     problem << "num_columns = " << num_columns << ", must be >= 1";
   } else if (!(min_range >= 0.0)) {
@@ -167,8 +172,11 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
 
   const auto cast = [&](size_t beam, size_t column) -> Echo {
     const double elevation = options.elevations[beam];
-    const double azimuth = -2.0 * M_PI * (static_cast<double>(column) + phase) /
-                           static_cast<double>(num_columns);
+    const double turned = 2.0 * M_PI * (static_cast<double>(column) + phase) /
+                          static_cast<double>(num_columns);
+    const double azimuth = options.azimuth_offsets.empty()
+                               ? -turned
+                               : options.azimuth_offsets[beam] - turned;
     const Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                              std::cos(elevation) * std::sin(azimuth),
                              std::sin(elevation));  // Equation (1).

@@ -5,7 +5,9 @@
 // Beam b and column c look along
 //
 //   d = (cos e cos a, cos e sin a, sin e),   e = elevation[b],
-//   a = -2 pi (c + phase) / num_columns,     phase in [0, 1) of the frame, (1)
+//   a = offset[b] - 2 pi (c + phase) / num_columns,                      (1)
+//
+// phase in [0, 1) of the frame,
 //
 // and measure d (r + n), with r the distance to the first triangle on the ray
 // and n ~ N(0, range_sigma^2). An echo is missed with probability
@@ -41,11 +43,12 @@ std::vector<double> Hdl64Elevations();
 
 struct LidarOptions {
   std::vector<double> elevations = Hdl64Elevations();  // [rad]
-  int num_columns = 2083;      // Per turn: one each 0.1728 deg.
-  double min_range = 0.9;      // [m]
-  double max_range = 120.0;    // [m]
-  double range_sigma = 0.02;   // [m]
-  double dropout_rate = 0.05;  // Echoes missed however good they are.
+  std::vector<double> azimuth_offsets;  // Of each beam [rad]; empty: all 0.
+  int num_columns = 2083;               // Per turn: one each 0.1728 deg.
+  double min_range = 0.9;               // [m]
+  double max_range = 120.0;             // [m]
+  double range_sigma = 0.02;            // [m]
+  double dropout_rate = 0.05;           // Echoes missed however good they are.
 
   bool IsValid(std::string* error) const;
 };

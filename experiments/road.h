@@ -6,10 +6,12 @@
 // the axis, n(s) its normal to the left and h the ground,
 //
 //   x_in_world = ( c(s) + d n(s), h(s, d) ),                              (1)
-//   h = s tan(slope) + waves(s, d) + profile(s, d).
+//   h = s tan(slope) + curve(s, d) + waves(s, d) + profile(s, d).
 //
 // The axis curves gently, with a radius above 100 m. The profile has a crown,
-// kerbs (lowered in the mouths of side streets), pavements and gardens.
+// kerbs (lowered in the mouths of side streets), pavements and gardens. Between
+// curve_begin and curve_end the grade, d h / d s, and the bank, d h / d d,
+// change evenly, so that the road there is a parabola, as roads are built.
 
 #ifndef QUATRO_EXPERIMENTS_ROAD_H_
 #define QUATRO_EXPERIMENTS_ROAD_H_
@@ -29,6 +31,18 @@ struct RoadOptions {
   double slope = 0.0;        // Climb of the axis [rad].
   double undulation = 0.05;  // Amplitude of the waves that are 40 m long [m].
   double half_width = 4.5;   // Of the carriageway with parked cars [m].
+
+  // A crest (climb < 0) or a sag: by how much the road climbs more [rad] past
+  // curve_end than before curve_begin [m], and how much more it falls to the
+  // right [rad].
+  double curve_begin = 0.0;
+  double curve_end = 1.0;
+  double curve_climb = 0.0;
+  double curve_bank = 0.0;
+
+  // Streets leave on both sides here [m], and none closer than 30 m; negative:
+  // wherever the seed has them.
+  double crossing = -1.0;
 
   // Standard deviation of a car's roll and pitch on its springs [rad].
   double tilt_sigma = 0.0052;
@@ -79,6 +93,8 @@ class Road {
   using Waves = std::vector<Wave>;
 
   static double Sum(const Waves& waves, double s, double d);
+  void AddCrossing();
+  double Curve(double s, double d) const;
   double Height(double s, double d) const;
 
   RoadOptions options_;
