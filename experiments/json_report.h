@@ -21,8 +21,9 @@ namespace quatro {
 using Json = nlohmann::ordered_json;
 
 // What both programs report: status and reason (the verdict's), message (the
-// estimator's), target_from_source (4 rows of 4,
-// or null), yaw_deg, counts, covariance, certificate, timings_ms, method.
+// estimator's), target_from_source (4 rows of 4, or null), yaw_deg, counts,
+// covariance (6 rows of 6, rotation [rad] first, or null), unheld_directions,
+// match_sigma [m], certificate, timings_ms, method.
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
                 const PoseSummary& solution,

@@ -14,6 +14,7 @@
 #include "features/normals.h"
 #include "features/voxel_grid.h"
 #include "robust/overlap.h"
+#include "robust/summary_covariance.h"
 
 namespace quatro {
 namespace {
@@ -76,7 +77,8 @@ bool RegistrationOptions::IsValid(std::string* error) const {
     return false;
   }
   return front_end.IsValid(error) && quatro.IsValid(error) &&
-         verdict.IsValid(error);
+         verdict.IsValid(error) && covariance.IsValid(error) &&
+         structure_hold.IsValid(error);
 }
 
 RegistrationSummary Register(const PointCloud& source,
@@ -145,6 +147,11 @@ RegistrationSummary Register(const PointCloud& source,
       options.solver
           ? options.solver(summary.matched_source, summary.matched_target)
           : SolveQuatro(summary.matched_source, summary.matched_target, quatro);
+  AddCovariance(summary.matched_source,
+                summary.matched_target,
+                quatro.noise_bound,
+                options.covariance,
+                &summary.solution);
   stopwatch.Lap();
   for (const StageTime& time : summary.solution.stage_times) {
     summary.stage_times.push_back(time);
@@ -166,6 +173,20 @@ RegistrationSummary Register(const PointCloud& source,
             options.num_threads),
         options.verdict,
         &summary.verdict);
+    StructureHoldOptions hold = options.structure_hold;
+    hold.max_distance = 5.0 / 3.0 * voxel_size;
+    summary.structure_hold = MeasureStructureHold(
+        {source_cloud.sensor, source_cloud.tree, source_cloud.normals},
+        {target_cloud.sensor, target_cloud.tree, target_cloud.normals},
+        *summary.solution.target_from_source,
+        hold,
+        options.num_threads);
+    if (summary.structure_hold) {
+      auto& unheld = summary.solution.covariance->unheld;
+      unheld.insert(unheld.end(),
+                    summary.structure_hold->unheld.begin(),
+                    summary.structure_hold->unheld.end());
+    }
   }
   finish_stage("verdict");
   summary.total_seconds = total.Lap();
