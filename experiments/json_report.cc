@@ -206,6 +206,15 @@ Json MakeReport(const std::string& method,
   return report;
 }
 
+Json Describe(const std::optional<StructureHold>& hold) {
+  if (!hold) return nullptr;
+  const Eigen::Vector3d& axis = hold->weakest_level_axis;
+  return {{"points_met", hold->num_met},
+          {"structure_met", hold->num_structure},
+          {"weakest_level_axis", {axis.x(), axis.y(), axis.z()}},
+          {"weakest_level_share", hold->weakest_level_share}};
+}
+
 Json DescribeOptions(const QuatroOptions& options) {
   return {{"noise_bound", options.noise_bound},
           {"tim_bound_factor", options.tim_bound_factor},

@@ -7,6 +7,7 @@
 #define QUATRO_EXPERIMENTS_JSON_REPORT_H_
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
 #include "robust/registration.h"
+#include "robust/structure_hold.h"
 #include "robust/verdict.h"
 
 namespace quatro {
@@ -29,6 +31,9 @@ Json MakeReport(const std::string& method,
                 const PoseSummary& solution,
                 const std::vector<StageTime>& stage_times,
                 double total_seconds);
+
+// What the surfaces hold of the position on the ground, or null.
+Json Describe(const std::optional<StructureHold>& hold);
 
 // The parameters as given and used.
 Json DescribeOptions(const QuatroOptions& options);

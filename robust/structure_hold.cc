@@ -60,7 +60,7 @@ MetPoints FindMet(const SurfaceCloud& a,
 
 // The sums of (1) and of its pieces over one scan's points.
 struct Sums {
-  double squared_distance = 0.0;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   Matrix6 information = Matrix6::Zero();
   Eigen::Matrix2d level = Eigen::Matrix2d::Zero();
   Eigen::Index num_structure = 0;
@@ -73,21 +73,28 @@ void AddTo(const MetPoints& met, const Eigen::Vector3d& center, Sums* sums) {
     Vector6 a;
     a << x.cross(n), n;
     sums->information += a * a.transpose();
-    sums->squared_distance += x.squaredNorm();
+    sums->scatter += x * x.transpose();
     if (std::abs(n.z()) > kMaxVertical) continue;
     ++sums->num_structure;
     sums->level += n.head<2>() * n.head<2>().transpose();
   }
 }
 
+// In [0, 1].
+double Part(const DirectionInformation& direction, const StructureHold& hold) {
+  if (direction.freedom == Freedom::kTranslation) return direction.information;
+  const Eigen::Vector3d& w = direction.axis;
+  const double squared_distance =
+      hold.scatter.trace() - w.dot(hold.scatter * w) +
+      w.cross(direction.point - hold.center).squaredNorm();
+  return squared_distance > 0.0 ? direction.information / squared_distance
+                                : 0.0;
+}
+
 void NameUnheld(const StructureHoldOptions& options, StructureHold* hold) {
-  const double squared_extent = hold->extent * hold->extent;
   for (const DirectionInformation& direction :
        SplitInformation(hold->information, hold->center, options.min_part)) {
-    const bool is_rotation = direction.freedom == Freedom::kRotation;
-    const double part = is_rotation ? direction.information / squared_extent
-                                    : direction.information;
-    if (part >= options.min_part) continue;
+    if (Part(direction, *hold) >= options.min_part) continue;
     hold->unheld.push_back({direction.freedom,
                             NotHeld::kNoSurface,
                             direction.axis,
@@ -151,7 +158,7 @@ std::optional<StructureHold> MeasureStructureHold(
   AddTo(of_source, hold.center, &sums);
   AddTo(of_target, hold.center, &sums);
   hold.information = sums.information / n;
-  hold.extent = std::sqrt(sums.squared_distance / n);
+  hold.scatter = sums.scatter / n;
   hold.num_structure = sums.num_structure;
   if (hold.num_structure > 0) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> level(sums.level);

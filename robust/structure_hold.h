@@ -9,9 +9,9 @@
 // All N points of either scan that are met in the other count, each half for
 // its own: the nearest point there is within max_distance, and its normal,
 // which is n_i, within 37 deg (|cos| > 0.8). c is their mean. A is in the
-// target frame, rotation first; a direction's part of it, rotations over the
-// squared extent of the points, is the mean squared sine of its angle with the
-// surfaces.
+// target frame, rotation first. What a direction has of it, a rotation's over
+// the mean squared distance from its axis, is its part: 1 for a motion along
+// the normals everywhere, 0 for one along the surfaces.
 //
 // In a corridor nothing stands across: walls, floor and ceiling fit wherever
 // along it. Matches may seem to hold what the surfaces do not.
@@ -43,7 +43,7 @@ struct StructureHoldOptions {
 struct StructureHold {
   Matrix6 information;             // (1): rotations in m^2, the rest of 1.
   Eigen::Vector3d center;          // c, in the target [m].
-  double extent = 0.0;             // Root mean square of |x_i - c| [m].
+  Eigen::Matrix3d scatter;         // Mean of (x_i - c) (x_i - c)^T [m^2].
   Eigen::Index num_met = 0;        // Of both scans.
   Eigen::Index num_structure = 0;  // Of those, more than 45 deg from level.
 
