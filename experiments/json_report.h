@@ -7,6 +7,7 @@
 #define QUATRO_EXPERIMENTS_JSON_REPORT_H_
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
 #include "robust/registration.h"
+#include "robust/structure_hold.h"
 #include "robust/verdict.h"
 
 namespace quatro {
@@ -21,13 +23,17 @@ namespace quatro {
 using Json = nlohmann::ordered_json;
 
 // What both programs report: status and reason (the verdict's), message (the
-// estimator's), target_from_source (4 rows of 4,
-// or null), yaw_deg, counts, covariance, certificate, timings_ms, method.
+// estimator's), target_from_source (4 rows of 4, or null), yaw_deg, counts,
+// covariance (6 rows of 6, rotation [rad] first, or null), unheld_directions,
+// match_sigma [m], certificate, timings_ms, method.
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
                 const PoseSummary& solution,
                 const std::vector<StageTime>& stage_times,
                 double total_seconds);
+
+// What the surfaces hold of the position on the ground, or null.
+Json Describe(const std::optional<StructureHold>& hold);
 
 // The parameters as given and used.
 Json DescribeOptions(const QuatroOptions& options);

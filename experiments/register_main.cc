@@ -191,6 +191,7 @@ int main(int argc, char** argv) {
                    {"target_dropped", target->num_dropped},
                    {"target_voxels", summary.num_target_voxels},
                    {"mutual_matches", summary.num_mutual_matches}});
+  report["structure_hold"] = quatro::Describe(summary.structure_hold);
   report["parameters"] = {{"source", FLAGS_source},
                           {"target", FLAGS_target},
                           {"preset", FLAGS_preset}};

@@ -114,6 +114,8 @@ void Fuse(const PointsRef& source,
     summary->unpolished_target_from_source = start;
   }
   summary->target_from_source = *fused;
+  summary->model = PoseModel::kRigid;
+  summary->vertical = prior;
   const auto inliers =
       FindAgreeing(matches.source, matches.target, *fused, noise_bound);
   summary->num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
@@ -158,6 +160,12 @@ QuatroSummary SolveQuatroWithIns(const PointsRef& source,
   const Points level_target = Turned(frames.level_from_target, target);
   QuatroSummary summary = SolveQuatro(level_source, level_target, options);
   if (!summary.IsUsable()) return summary;
+  if (summary.model == PoseModel::kYawTranslation) {
+    summary.vertical.emplace();
+    summary.vertical->angle_std = ins.mode == InsMode::kNone
+                                      ? PoseCovarianceOptions().tilt_std
+                                      : std::sqrt(2.0) * ins.attitude_std;
+  }
 
   if (ins.mode == InsMode::kFused) {
     Stopwatch stopwatch;
@@ -170,6 +178,12 @@ QuatroSummary SolveQuatroWithIns(const PointsRef& source,
   }
   const Eigen::Matrix3d target_from_level =
       frames.level_from_target.transpose();
+  if (summary.vertical) {
+    VerticalPrior& vertical = *summary.vertical;
+    vertical.up_in_source =
+        frames.level_from_source.transpose() * vertical.up_in_source;
+    vertical.up_in_target = target_from_level * vertical.up_in_target;
+  }
   for (std::optional<Rigid3>* pose :
        {&summary.target_from_source, &summary.unpolished_target_from_source}) {
     if (!*pose) continue;

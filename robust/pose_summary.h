@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "features/stopwatch.h"
+#include "solvers/ins_refinement.h"
+#include "solvers/pose_covariance.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -54,6 +56,14 @@ struct PoseSummary {
 
   // The answer before it was polished in SE(3), if it was.
   std::optional<Rigid3> unpolished_target_from_source;
+
+  // What of the pose was estimated, and what it takes from an INS: which way is
+  // up (kYawTranslation), or a term beside the matches (kRigid).
+  PoseModel model = PoseModel::kRigid;
+  std::optional<VerticalPrior> vertical;
+
+  // By AddCovariance() (robust/summary_covariance.h), for every estimator.
+  std::optional<PoseCovariance> covariance;
 
   double scale = 1.0;  // Of the target over the source; 1 unless estimated.
 

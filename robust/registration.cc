@@ -14,6 +14,7 @@
 #include "features/normals.h"
 #include "features/voxel_grid.h"
 #include "robust/evidence.h"
+#include "robust/summary_covariance.h"
 
 namespace quatro {
 namespace {
@@ -86,7 +87,8 @@ bool RegistrationOptions::IsValid(std::string* error) const {
     return false;
   }
   return front_end.IsValid(error) && quatro.IsValid(error) &&
-         verdict.IsValid(error);
+         verdict.IsValid(error) && covariance.IsValid(error) &&
+         structure_hold.IsValid(error);
 }
 
 RegistrationSummary Register(const PointCloud& source,
@@ -155,6 +157,11 @@ RegistrationSummary Register(const PointCloud& source,
       options.solver
           ? options.solver(summary.matched_source, summary.matched_target)
           : SolveQuatro(summary.matched_source, summary.matched_target, quatro);
+  AddCovariance(summary.matched_source,
+                summary.matched_target,
+                quatro.noise_bound,
+                options.covariance,
+                &summary.solution);
   stopwatch.Lap();
   for (const StageTime& time : summary.solution.stage_times) {
     summary.stage_times.push_back(time);
@@ -169,6 +176,20 @@ RegistrationSummary Register(const PointCloud& source,
                                         *summary.solution.target_from_source,
                                         evidence,
                                         options.num_threads);
+    StructureHoldOptions hold = options.structure_hold;
+    hold.max_distance = evidence.max_distance_in_voxels * voxel_size;
+    summary.structure_hold =
+        MeasureStructureHold(AsSurface(source_cloud),
+                             AsSurface(target_cloud),
+                             *summary.solution.target_from_source,
+                             hold,
+                             options.num_threads);
+    if (summary.structure_hold) {
+      auto& unheld = summary.solution.covariance->unheld;
+      unheld.insert(unheld.end(),
+                    summary.structure_hold->unheld.begin(),
+                    summary.structure_hold->unheld.end());
+    }
     finish_stage("evidence");
   }
   VerdictOptions verdict = options.verdict;

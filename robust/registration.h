@@ -22,7 +22,9 @@
 #include "features/types.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
+#include "robust/structure_hold.h"
 #include "robust/verdict.h"
+#include "solvers/pose_covariance.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -49,6 +51,11 @@ struct RegistrationOptions {
   PoseSolver solver;
 
   VerdictOptions verdict;
+
+  // Of these, what the estimator and the voxels decide is replaced.
+  PoseCovarianceOptions covariance;
+  StructureHoldOptions structure_hold;
+
   // For all parts: those of front_end.tuple and quatro are replaced by these.
   int num_threads = 1;  // 0: all cores. Never changes the answer.
   std::uint64_t seed = 0;
@@ -75,6 +82,10 @@ struct RegistrationSummary {
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
   PoseSummary solution;
+
+  // What the surfaces hold; the directions that they do not are among
+  // solution.covariance's, too.
+  std::optional<StructureHold> structure_hold;
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 

@@ -60,6 +60,19 @@ std::string DescribeDoubts(const Verdict& verdict, const Rigid3& pose) {
   return text.str();
 }
 
+// A direction of the pose that its own inliers do not hold; null if there is
+// none, or no covariance.
+const UnheldDirection* FindLoose(const PoseSummary& summary) {
+  if (!summary.covariance) return nullptr;
+  for (const UnheldDirection& direction : summary.covariance->unheld) {
+    if (direction.reason == NotHeld::kNoData ||
+        direction.reason == NotHeld::kWithinNoise) {
+      return &direction;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 const char* StatusName(Status status) {
@@ -136,6 +149,11 @@ Verdict Judge(const PointsRef& source,
                        ? Status::kRegistered
                        : Status::kAmbiguous;
   verdict.reason = DescribeMatches(verdict);
+  if (const UnheldDirection* loose = FindLoose(summary)) {
+    verdict.status = Status::kDegenerate;
+    verdict.reason += "; they do not hold the " + loose->Describe();
+    return verdict;
+  }
   if (geometry) {
     std::ostringstream text;
     text << "; " << Percent(geometry->structure_overlap)
