@@ -95,8 +95,8 @@ Json Describe(const GeometricEvidence& evidence) {
   const RivalPose& rival = evidence.rival;
   return {
       {"median_residual_voxels", evidence.median_residual},
-      {"contradicted_share", OrNull(evidence.contradicted_share)},
-      {"contradicted", evidence.num_contradicted},
+      {"contradicted_share", OrNull(evidence.free_space.ContradictedShare())},
+      {"contradicted", evidence.free_space.num_contradicted},
       {"weakest_share", evidence.weakest_share},
       {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
       {"coarse_overlap", rival.overlap},

@@ -59,8 +59,8 @@ void ExpectSameBits(const RegistrationSummary& a,
   EXPECT_EQ(a.verdict.structure_overlap, b.verdict.structure_overlap);
   ASSERT_TRUE(a.verdict.geometry.has_value());
   ASSERT_TRUE(b.verdict.geometry.has_value());
-  EXPECT_EQ(a.verdict.geometry->contradicted_share,
-            b.verdict.geometry->contradicted_share);
+  EXPECT_EQ(a.verdict.geometry->free_space.ContradictedShare(),
+            b.verdict.geometry->free_space.ContradictedShare());
   EXPECT_EQ(a.verdict.geometry->rival.rival_target_from_source.ToMatrix(),
             b.verdict.geometry->rival.rival_target_from_source.ToMatrix());
 }
@@ -80,8 +80,9 @@ TEST_F(RegistrationTest, FindsTheMotionBetweenTwoScans) {
   EXPECT_EQ(summary.verdict.structure_overlap,
             summary.verdict.geometry->structure_overlap);
   // Both are scans from their origins.
-  ASSERT_TRUE(summary.verdict.geometry->contradicted_share.has_value());
-  EXPECT_LE(*summary.verdict.geometry->contradicted_share, 0.05);
+  ASSERT_TRUE(
+      summary.verdict.geometry->free_space.ContradictedShare().has_value());
+  EXPECT_LE(*summary.verdict.geometry->free_space.ContradictedShare(), 0.05);
   EXPECT_GT(summary.num_source_voxels, 1000);
   EXPECT_GT(summary.num_target_voxels, 1000);
   EXPECT_EQ(summary.matched_source.cols(), summary.matched_target.cols());
@@ -94,7 +95,8 @@ TEST_F(RegistrationTest, FreeSpaceOfAMapIsNotKnown) {
   const PointCloud target = CloudOf(target_.points.colwise() + origin);
   const RegistrationSummary summary = Register(source, target, options_);
   ASSERT_TRUE(summary.verdict.geometry.has_value()) << summary.verdict.reason;
-  EXPECT_FALSE(summary.verdict.geometry->contradicted_share.has_value());
+  EXPECT_FALSE(
+      summary.verdict.geometry->free_space.ContradictedShare().has_value());
 }
 
 TEST_F(RegistrationTest, NumberOfThreadsDoesNotMatterBitForBit) {
