@@ -101,6 +101,8 @@ Json Describe(const GeometricEvidence& evidence) {
       {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
       {"coarse_overlap", rival.overlap},
       {"rival_overlap", rival.rival_overlap},
+      {"rival_contradicted_share",
+       OrNull(evidence.rival_free_space.ContradictedShare())},
       {"rival_yaw_deg", rival.yaw * 180.0 / M_PI},
       {"rival_shift_m", {rival.shift.x(), rival.shift.y(), rival.shift.z()}},
       {"rival_target_from_source", Rows(rival.rival_target_from_source)}};

@@ -292,6 +292,19 @@ TEST(GeometricEvidence, WallBehindAWallIsNotContradicted) {
             without.free_space.num_contradicted + 5);
 }
 
+// The smaller share decides, whichever scan has more to be met.
+TEST(GeometricEvidence, CoarseOverlapIsTheSmallerOfBothWays) {
+  const auto corridor = Corridor();
+  const auto double_walled = Join(corridor, {{{-20, 4}, {20, 4}}});
+  const ScanPair more_in_source(double_walled, corridor);
+  const ScanPair more_in_target(corridor, double_walled);
+  for (const ScanPair* pair : {&more_in_source, &more_in_target}) {
+    const GeometricEvidence evidence = Measure(*pair);
+    EXPECT_LT(evidence.structure_overlap, 0.85);
+    EXPECT_NEAR(evidence.rival.overlap, evidence.structure_overlap, 0.08);
+  }
+}
+
 TEST(GeometricEvidence, FreeSpaceIsUnknownIfNeitherIsAScan) {
   ScanPair pair(FurnishedRoom());
   pair.source.is_scan = false;
