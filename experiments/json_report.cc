@@ -112,12 +112,14 @@ Json Describe(const GeometricEvidence& evidence) {
   return {
       {"structure_overlap", evidence.structure_overlap},
       {"median_residual_voxels", evidence.median_residual},
-      {"contradicted_share", OrNull(evidence.contradicted_share)},
-      {"contradicted", evidence.num_contradicted},
+      {"contradicted_share", OrNull(evidence.free_space.ContradictedShare())},
+      {"contradicted", evidence.free_space.num_contradicted},
       {"weakest_share", evidence.weakest_share},
       {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
       {"coarse_overlap", rival.overlap},
       {"rival_overlap", rival.rival_overlap},
+      {"rival_contradicted_share",
+       OrNull(evidence.rival_free_space.ContradictedShare())},
       {"rival_yaw_deg", rival.yaw * 180.0 / M_PI},
       {"rival_shift_m", {rival.shift.x(), rival.shift.y(), rival.shift.z()}},
       {"rival_target_from_source", Rows(rival.rival_target_from_source)}};

@@ -18,7 +18,9 @@ constexpr double kMaxNumCells = 1 << 23;
 
 // Of the normal's azimuth, in [0, kNumSectors); opposite normals have the same.
 double SectorOf(const Eigen::Vector3d& normal) {
-  const double turns = std::atan2(normal.y(), normal.x()) / M_PI;
+  const double turns = std::atan2(static_cast<float>(normal.y()),
+                                  static_cast<float>(normal.x())) /
+                       M_PI;
   return (turns - std::floor(turns)) * kNumSectors;
 }
 

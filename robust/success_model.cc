@@ -15,7 +15,7 @@ namespace {
 constexpr double kMatchesIntercept = -6.0;
 constexpr double kMatchesWeights[] = {1.0, 1.0};
 constexpr double kCloudsIntercept = -6.0;
-constexpr double kCloudsWeights[] = {1.0, 1.0, 4.0, 1.0, 1.0, 1.0};
+constexpr double kCloudsWeights[] = {1.0, 1.0, 4.0, 1.0, 1.0, 1.0, 1.0};
 
 // What is assumed where free space is not known: it says little either way.
 constexpr double kUsualContradictedShare = 0.1;
@@ -31,11 +31,16 @@ std::vector<Feature> MakeFeatures(
       {"margin", rival ? std::clamp(rival->margin, 0.0, 6.0) : 6.0}};
   if (!geometry) return features;
   features.push_back({"overlap", geometry->structure_overlap});
-  features.push_back(
-      {"free_space",
-       1.0 - geometry->contradicted_share.value_or(kUsualContradictedShare)});
+  const double contradicted = geometry->free_space.ContradictedShare().value_or(
+      kUsualContradictedShare);
+  features.push_back({"free_space", 1.0 - contradicted});
   features.push_back(
       {"distinctness", std::clamp(geometry->Distinctness(), 0.0, 0.5)});
+  // A rival that is contradicted is none.
+  const double rival_contradicted =
+      geometry->rival_free_space.ContradictedShare().value_or(contradicted);
+  features.push_back({"rival_contradicted",
+                      std::clamp(rival_contradicted - contradicted, 0.0, 0.5)});
   features.push_back(
       {"held",
        3.0 + std::log10(std::clamp(geometry->weakest_share, 1e-3, 0.5))});

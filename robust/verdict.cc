@@ -53,8 +53,9 @@ std::string DescribeDoubts(const Verdict& verdict, const Rigid3& pose) {
     text << "; the scans fit as well "
          << DescribeStep(pose, geometry.rival.rival_target_from_source);
   }
-  if (geometry.contradicted_share.value_or(0.0) > 0.3) {
-    text << "; " << Percent(*geometry.contradicted_share)
+  const auto contradicted = geometry.free_space.ContradictedShare();
+  if (contradicted.value_or(0.0) > 0.3) {
+    text << "; " << Percent(*contradicted)
          << " % of the surfaces stand where the other scan saw through";
   }
   return text.str();

@@ -150,11 +150,14 @@ TEST(JsonReportTest, GeometryIsThereWhereItWasMeasured) {
   verdict.geometry->rival.yaw = -M_PI;
   verdict.geometry->rival.shift << 1.0, 2.0, 3.0;
   EXPECT_TRUE(evidence(verdict)["contradicted_share"].is_null());
-  verdict.geometry->contradicted_share = 0.5;
-  EXPECT_EQ(evidence(verdict)["contradicted_share"], 0.5);
+  verdict.geometry->free_space = {10, 30};
+  verdict.geometry->rival_free_space = {1, 1};
+  EXPECT_EQ(evidence(verdict)["contradicted_share"], 0.25);
+  EXPECT_EQ(evidence(verdict)["contradicted"], 10);
+  EXPECT_EQ(evidence(verdict)["rival_contradicted_share"], 0.5);
   EXPECT_EQ(evidence(verdict)["rival_overlap"], 0.25);
   EXPECT_EQ(evidence(verdict)["rival_yaw_deg"], -180.0);
-  EXPECT_EQ(evidence(verdict)["rival_shift_m"], Json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(evidence(verdict)["rival_shift_m"].dump(), "[1.0,2.0,3.0]");
 }
 
 TEST(JsonReportTest, CovarianceIsSixRowsBitForBitOrNull) {

@@ -76,8 +76,9 @@ TEST_F(RegistrationTest, FindsTheMotionBetweenTwoScans) {
       << summary.verdict.reason;
   ASSERT_TRUE(summary.verdict.geometry.has_value());
   // Both are scans from their origins.
-  ASSERT_TRUE(summary.verdict.geometry->contradicted_share.has_value());
-  EXPECT_LE(*summary.verdict.geometry->contradicted_share, 0.05);
+  ASSERT_TRUE(
+      summary.verdict.geometry->free_space.ContradictedShare().has_value());
+  EXPECT_LE(*summary.verdict.geometry->free_space.ContradictedShare(), 0.05);
   EXPECT_GT(summary.num_source_voxels, 1000);
   EXPECT_GT(summary.num_target_voxels, 1000);
   EXPECT_EQ(summary.matched_source.cols(), summary.matched_target.cols());
@@ -90,7 +91,8 @@ TEST_F(RegistrationTest, FreeSpaceOfAMapIsNotKnown) {
   const PointCloud target = CloudOf(target_.points.colwise() + origin);
   const RegistrationSummary summary = Register(source, target, options_);
   ASSERT_TRUE(summary.verdict.geometry.has_value()) << summary.verdict.reason;
-  EXPECT_FALSE(summary.verdict.geometry->contradicted_share.has_value());
+  EXPECT_FALSE(
+      summary.verdict.geometry->free_space.ContradictedShare().has_value());
 }
 
 TEST_F(RegistrationTest, NumberOfThreadsDoesNotMatterBitForBit) {
