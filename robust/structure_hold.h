@@ -41,9 +41,11 @@ struct StructureHoldOptions {
 };
 
 struct StructureHold {
-  Matrix6 information;             // (1): rotations in m^2, the rest of 1.
-  Eigen::Vector3d center;          // c, in the target [m].
-  Eigen::Matrix3d scatter;         // Mean of (x_i - c) (x_i - c)^T [m^2].
+  // (1): rotations in m^2, the rest of 1.
+  Matrix6 information = Matrix6::Zero();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // c, in the target [m].
+  // Mean of (x_i - c) (x_i - c)^T [m^2].
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   Eigen::Index num_met = 0;        // Of both scans.
   Eigen::Index num_structure = 0;  // Of those, more than 45 deg from level.
 

@@ -33,8 +33,10 @@ enum class Freedom { kRotation, kTranslation };
 // One of the six of (2), in the target frame.
 struct DirectionInformation {
   Freedom freedom = Freedom::kRotation;
-  Eigen::Vector3d axis;      // Unit; its largest coordinate is > 0.
-  Eigen::Vector3d point;     // Of a rotation: where the axis passes [m].
+  // Unit; its largest coordinate is > 0.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  // Of a rotation: where the axis passes [m].
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double information = 0.0;  // [1/rad^2] or [1/m^2]
 };
 
