@@ -13,7 +13,7 @@
 namespace quatro {
 namespace {
 
-constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
+constexpr double kMaxVertical = 0.7071;  // |n_up| of a surface at 45 deg.
 constexpr double kMinNormalCosine = 0.8;
 constexpr double kRangeQuantile = 0.75;
 constexpr int kMinStructure = 50;
@@ -47,7 +47,9 @@ std::optional<double> ShareMet(const SurfaceCloud& a,
     int met = 0;
     for (Eigen::Index i = begin; i < end; ++i) {
       const auto normal = a.normals.col(i);
-      if (normal.isZero(0.0) || std::abs(normal.z()) > kMaxVertical) continue;
+      if (normal.isZero(0.0) || std::abs(normal.dot(a.up)) > kMaxVertical) {
+        continue;
+      }
       const Eigen::Vector3d point_in_b =
           b_from_a * Eigen::Vector3d(points.col(i));
       if ((point_in_b - b.sensor).norm() > max_range) continue;

@@ -28,6 +28,7 @@ struct SurfaceCloud {
   Eigen::Vector3d sensor;  // Where it stood, in the frame of the points [m].
   const KdTree& tree;      // Of the points [m].
   const Points& normals;   // Unit, or zero where there is none.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // What the vertical is.
 };
 
 // The smaller of the shares of structure of each scan that is met in the other,

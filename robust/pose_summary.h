@@ -6,11 +6,13 @@
 #define QUATRO_ROBUST_POSE_SUMMARY_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "features/stopwatch.h"
+#include "features/types.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -70,6 +72,10 @@ struct PoseSummary {
 
   bool IsUsable() const { return target_from_source.has_value(); }
 };
+
+// Any estimator; its options are its own.
+using PoseSolver = std::function<PoseSummary(const PointsRef& source,
+                                             const PointsRef& target)>;
 
 }  // namespace quatro
 

@@ -20,7 +20,7 @@ namespace {
 
 // Where the sensor stood: at the origin of a scan. A cloud that does not reach
 // around its origin is in the coordinates of a map; there, above its middle.
-Eigen::Vector3d AssumedSensor(const Points& points) {
+Eigen::Vector3d AssumedSensor(const Points& points, const Eigen::Vector3d& up) {
   const Eigen::Vector3d low = points.rowwise().minCoeff();
   const Eigen::Vector3d high = points.rowwise().maxCoeff();
   const Eigen::Vector3d margin = 0.5 * (high - low);
@@ -28,10 +28,13 @@ Eigen::Vector3d AssumedSensor(const Points& points) {
     return Eigen::Vector3d::Zero();
   }
   const Eigen::Vector3d middle = 0.5 * (low + high);
-  return {middle.x(), middle.y(), high.z()};
+  const double height =
+      (up.transpose() * (points.colwise() - middle)).maxCoeff();
+  return middle + height * up;
 }
 
 struct DescribedCloud {
+  Eigen::Vector3d up;
   Eigen::Vector3d sensor;
   KdTree tree;
   Points normals;
@@ -39,16 +42,17 @@ struct DescribedCloud {
 };
 
 DescribedCloud Describe(const Points& points,
+                        const Eigen::Vector3d& up,
                         const FrontEndOptions& options,
                         int num_threads) {
-  const Eigen::Vector3d sensor = AssumedSensor(points);
+  const Eigen::Vector3d sensor = AssumedSensor(points, up);
   KdTree tree(points);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(tree, options.fpfh_radius, num_threads);
   Points normals = EstimateNormals(
       points, neighborhoods, options.normal_radius, sensor, num_threads);
   Fpfh fpfh = ComputeFpfh(points, normals, neighborhoods, num_threads);
-  return {sensor, std::move(tree), std::move(normals), std::move(fpfh)};
+  return {up, sensor, std::move(tree), std::move(normals), std::move(fpfh)};
 }
 
 }  // namespace
@@ -76,7 +80,7 @@ bool RegistrationOptions::IsValid(std::string* error) const {
     return false;
   }
   return front_end.IsValid(error) && quatro.IsValid(error) &&
-         verdict.IsValid(error);
+         ins.IsValid(error) && verdict.IsValid(error);
 }
 
 RegistrationSummary Register(const PointCloud& source,
@@ -114,10 +118,17 @@ RegistrationSummary Register(const PointCloud& source,
   summary.num_target_voxels = target_voxels->cols();
   finish_stage("voxels");
 
+  const LevelFrames frames = MakeLevelFrames(options.ins);
   const DescribedCloud source_cloud =
-      Describe(*source_voxels, options.front_end, options.num_threads);
+      Describe(*source_voxels,
+               frames.level_from_source.row(2).transpose(),
+               options.front_end,
+               options.num_threads);
   const DescribedCloud target_cloud =
-      Describe(*target_voxels, options.front_end, options.num_threads);
+      Describe(*target_voxels,
+               frames.level_from_target.row(2).transpose(),
+               options.front_end,
+               options.num_threads);
   finish_stage("features");
 
   std::vector<Match> matches = MatchMutualNearest(
@@ -141,10 +152,15 @@ RegistrationSummary Register(const PointCloud& source,
   QuatroOptions quatro = options.quatro;
   quatro.num_threads = options.num_threads;
   quatro.seed = options.seed;
+  const PoseSolver solve_quatro = [&](const PointsRef& p, const PointsRef& q) {
+    return SolveQuatro(p, q, quatro);
+  };
   summary.solution =
-      options.solver
-          ? options.solver(summary.matched_source, summary.matched_target)
-          : SolveQuatro(summary.matched_source, summary.matched_target, quatro);
+      SolveWithIns(summary.matched_source,
+                   summary.matched_target,
+                   options.solver ? options.solver : solve_quatro,
+                   quatro.noise_bound,
+                   options.ins);
   stopwatch.Lap();
   for (const StageTime& time : summary.solution.stage_times) {
     summary.stage_times.push_back(time);
@@ -157,15 +173,19 @@ RegistrationSummary Register(const PointCloud& source,
                                  options.verdict);
   if (summary.solution.IsUsable()) {
     // A voxel's mean may be off by about its size; two of them by more.
-    AddOverlap(
-        MeasureStructureOverlap(
-            {source_cloud.sensor, source_cloud.tree, source_cloud.normals},
-            {target_cloud.sensor, target_cloud.tree, target_cloud.normals},
-            *summary.solution.target_from_source,
-            5.0 / 3.0 * voxel_size,
-            options.num_threads),
-        options.verdict,
-        &summary.verdict);
+    AddOverlap(MeasureStructureOverlap({source_cloud.sensor,
+                                        source_cloud.tree,
+                                        source_cloud.normals,
+                                        source_cloud.up},
+                                       {target_cloud.sensor,
+                                        target_cloud.tree,
+                                        target_cloud.normals,
+                                        target_cloud.up},
+                                       *summary.solution.target_from_source,
+                                       5.0 / 3.0 * voxel_size,
+                                       options.num_threads),
+               options.verdict,
+               &summary.verdict);
   }
   finish_stage("verdict");
   summary.total_seconds = total.Lap();
