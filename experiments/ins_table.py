@@ -231,6 +231,9 @@ def main(args):
     for pair in pairs:
         if pair.pose is None:
             raise BadInput(f"{options.pairs}: {pair.source} has no pose, so no error can be told")
+    flag = next((flag for flag in flags if flag.lstrip("-").startswith("ins_std_deg")), None)
+    if flag and any(std is not None for *_, std in ins.values()):
+        raise BadInput(f"{flag}: {options.ins or options.pairs} has a column of it")
     if not os.access(options.program, os.X_OK) or os.path.isdir(options.program):
         raise BadInput(f"{options.program}: is not a program; build it or name it by --program")
     rows = tabulate(pairs, ins, pathlib.Path(options.pairs).parent, options.program, flags,

@@ -9,6 +9,7 @@
 
 #include "features/kd_tree.h"
 #include "features/normals.h"
+#include "solvers/gravity.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
