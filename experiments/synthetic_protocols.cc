@@ -364,7 +364,7 @@ Table RunSlopeProtocol(int num_seeds, const Progress& progress) {
   constexpr double kNoiseBound = 0.3;
   constexpr double kAttitudeStd = 0.3 * kDegree;
   constexpr Eigen::Index kNumMatches = 100;
-  const std::vector<Eigen::Index> num_true = {30, 3};
+  const std::vector<Eigen::Index> num_true = {30, 4};
   const std::vector<double> tilts_deg = {2.0, 5.0, 10.0, 15.0};
   const std::vector<std::pair<const char*, InsMode>> modes = {
       {"plain", InsMode::kNone},

@@ -16,6 +16,7 @@
 #include "robust/arc_consensus.h"
 #include "robust/teaser.h"
 #include "solvers/gravity.h"
+#include "solvers/ins_refinement.h"
 #include "solvers/rigid3.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/matchers.h"
@@ -376,6 +377,43 @@ TEST(Ins, HasItsSayAfterThePolish) {
     EXPECT_LT(tilt_error(1e-6), 1e-6);
     EXPECT_GT(tilt_error(1.0), 1e-5);
   }
+}
+
+// The polished answer is the best on its inliers but for the INS.
+TEST(Ins, PolishedAnswerIsNotTheLastWord) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SlopeProblem problem = MakeSlope(5.0 * kDegree, seed, 0.28);
+    Random random(seed);
+    Disturb(0.1 * kDegree, &random, &problem.ins);
+    EXPECT_THAT(Solve(problem, InsMode::kFused, {}).message,
+                HasSubstr("; fused with the INS"))
+        << seed;
+  }
+}
+
+TEST(Ins, FusesAsTheRefinementOfTheInliers) {
+  // Level, without outliers, and an INS that claims otherwise.
+  const KnownProblem level =
+      MakeMatchedProblem({.num_outliers = 0, .noise = 0.05}, 3);
+  InsOptions ins;
+  ins.mode = InsMode::kFused;
+  ins.source_attitude.roll = 0.005;
+  ins.attitude_std = 0.002;
+  ins.match_std = 0.2;
+  const Eigen::Matrix3d level_from_source = LevelFromBody(0.005, 0.0);
+  VerticalPrior prior;
+  prior.up_in_source = level_from_source.row(2).transpose();
+  prior.angle_std = std::sqrt(0.002 * 0.002 + 0.002 * 0.002);
+  const auto expected = RefineWithIns(
+      level.source, level.target, 0.2, level.true_target_from_source, prior);
+  ASSERT_TRUE(expected.has_value());
+  const QuatroSummary summary =
+      SolveQuatroWithIns(level.source, level.target, WithoutPolish(), ins);
+  ASSERT_TRUE(summary.IsUsable()) << summary.message;
+  EXPECT_LE((summary.target_from_source->ToMatrix() -
+             expected->target_from_source.ToMatrix())
+                .norm(),
+            1e-6);
 }
 
 // By (1) of solvers/ins_refinement.h only the ratio of the two counts.
