@@ -53,25 +53,50 @@ PoseSolver MakeAuto(const QuatroOptions& options) {
   };
 }
 
+enum class Ins { kRefused, kTaken, kNeeded };
+
 struct Method {
   const char* name;
   const char* description;
   PoseSolver (*make)(const QuatroOptions& options);
+  Ins ins = Ins::kRefused;
 };
 
 constexpr Method kMethods[] = {
-    {"auto", "quatro; above 20,000 matches arc_consensus", MakeAuto},
-    {"quatro", "clique, yaw by GNC, translation by axis", MakeQuatro},
+    {"auto",
+     "quatro; above 20,000 matches arc_consensus",
+     MakeAuto,
+     Ins::kTaken},
+    {"quatro",
+     "clique, yaw by GNC, translation by axis",
+     MakeQuatro,
+     Ins::kTaken},
     {"quatro_exact",
      "the same with the yaw's global optimum in place of GNC",
-     [](const QuatroOptions& options) { return MakeQuatroExact(options); }},
+     [](const QuatroOptions& options) { return MakeQuatroExact(options); },
+     Ins::kTaken},
+    {"quatro_ins",
+     "quatro with roll and pitch of an INS, which must be given",
+     MakeQuatro,
+     Ins::kNeeded},
     {"arc_consensus",
      "no graph: random pairs, exact yaw, translation by axis",
-     MakeArcConsensus},
+     MakeArcConsensus,
+     Ins::kTaken},
     {"teaser",
      "TEASER++: exact clique, SO(3) by GNC, translation by axis",
      MakeTeaser},
 };
+
+// The names of the methods that take an INS: "auto, quatro, ...".
+std::string NamesThatTakeIns() {
+  std::string names;
+  for (const Method& method : kMethods) {
+    if (method.ins == Ins::kRefused) continue;
+    names += (names.empty() ? "" : ", ") + std::string(method.name);
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -91,17 +116,50 @@ std::string DescribeMethods() {
   return text;
 }
 
-PoseSolver MakeSolver(const std::string& name,
-                      const QuatroOptions& options,
-                      std::string* error) {
+PoseSolver MakeLevelSolver(const std::string& name,
+                           const QuatroOptions& options,
+                           const InsOptions& ins,
+                           std::string* error) {
   for (const Method& method : kMethods) {
-    if (name == method.name) return method.make(options);
+    if (name != method.name) continue;
+    if (!ins.IsValid(error)) return nullptr;
+    if (method.ins == Ins::kNeeded && ins.mode == InsMode::kNone) {
+      *error = "--method=" + name +
+               " needs an INS: --ins_mode=relative, leveled or fused, "
+               "--source_rpy_deg and --target_rpy_deg";
+      return nullptr;
+    }
+    if (method.ins == Ins::kRefused && !ins.IsPlain()) {
+      *error =
+          std::string(ins.mode == InsMode::kNone ? "--gravity" : "--ins_mode") +
+          " needs one of --method=" + NamesThatTakeIns() + ", not " + name;
+      return nullptr;
+    }
+    return method.make(options);
   }
   *error = "--method=" + name + ", must be one of";
   for (const Method& method : kMethods) {
     *error += std::string(" ") + method.name;
   }
   return nullptr;
+}
+
+PoseSolver MakeSolver(const std::string& name,
+                      const QuatroOptions& options,
+                      const InsOptions& ins,
+                      std::string* error) {
+  PoseSolver solver = MakeLevelSolver(name, options, ins, error);
+  if (!solver || ins.IsPlain()) return solver;
+  return [solver, bound = options.noise_bound, ins](const PointsRef& source,
+                                                    const PointsRef& target) {
+    return SolveWithIns(source, target, solver, bound, ins);
+  };
+}
+
+PoseSolver MakeSolver(const std::string& name,
+                      const QuatroOptions& options,
+                      std::string* error) {
+  return MakeSolver(name, options, InsOptions(), error);
 }
 
 bool ApplySwitch(const std::string& flag,

@@ -128,8 +128,9 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     return std::nullopt;
   }
   if (!options->IsValid(error)) return std::nullopt;
+  options->ins = ins;
   options->solver =
-      quatro::MakeSolverWithIns(FLAGS_method, options->quatro, ins, error);
+      quatro::MakeLevelSolver(FLAGS_method, options->quatro, ins, error);
   if (!options->solver) return std::nullopt;
   return options;
 }

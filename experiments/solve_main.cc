@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
   const auto ins = InsFromFlags(&error);
   if (!ins) return Fail(error);
   const quatro::PoseSolver solver =
-      quatro::MakeSolverWithIns(FLAGS_method, options->quatro, *ins, &error);
+      quatro::MakeSolver(FLAGS_method, options->quatro, *ins, &error);
   if (!solver) return Fail(error);
   const auto matches = quatro::ReadMatches(FLAGS_correspondences, &error);
   if (!matches) return Fail(error);

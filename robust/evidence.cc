@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "robust/free_space.h"
+#include "solvers/gravity.h"
 
 namespace quatro {
 namespace {
@@ -88,6 +89,31 @@ void AddFreeSpace(const std::vector<StructurePoint>& structure,
   }
 }
 
+// In a target frame whose z is up.
+std::optional<GeometricEvidence> MeasureLevel(const SurfaceCloud& source,
+                                              const SurfaceCloud& target,
+                                              const Rigid3& target_from_source,
+                                              const EvidenceOptions& options,
+                                              int num_threads) {
+  const Rigid3 level{RotationBetween(target.up, Eigen::Vector3d::UnitZ()),
+                     Eigen::Vector3d::Zero()};
+  const KdTree tree(level.Apply(target.tree.points()));
+  const Points normals = level.rotation * target.normals;
+  auto evidence = MeasureGeometricEvidence(
+      source,
+      {level * target.sensor, tree, normals, target.is_scan},
+      level * target_from_source,
+      options,
+      num_threads);
+  if (!evidence) return std::nullopt;
+  const Rigid3 back = Inverse(level);
+  evidence->weakest_direction = back.rotation * evidence->weakest_direction;
+  evidence->rival.shift = back.rotation * evidence->rival.shift;
+  evidence->rival.rival_target_from_source =
+      back * evidence->rival.rival_target_from_source;
+  return evidence;
+}
+
 }  // namespace
 
 bool EvidenceOptions::IsValid(std::string* error) const {
@@ -111,6 +137,10 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
     const Rigid3& target_from_source,
     const EvidenceOptions& options,
     int num_threads) {
+  if (target.up != Eigen::Vector3d::UnitZ()) {
+    return MeasureLevel(
+        source, target, target_from_source, options, num_threads);
+  }
   if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
     return std::nullopt;
   }

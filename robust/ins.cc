@@ -5,6 +5,7 @@
 
 #include <glog/logging.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -19,34 +20,16 @@
 namespace quatro {
 namespace {
 
-// A right match is off by the noise bound at so many standard deviations.
+// A right match is off by the noise bound at so many standard deviations, if
+// InsOptions::match_std does not say otherwise.
 constexpr double kSigmasInBound = 3.0;
 
-// Bounds of the alternation of inliers and pose, in noise bounds.
-constexpr double kSchedule[] = {2.0, 1.5, 1.0, 1.0, 1.0, 1.0};
-
-struct LevelFrames {
-  Eigen::Matrix3d level_from_source;
-  Eigen::Matrix3d level_from_target;
-};
-
-LevelFrames MakeLevelFrames(const InsOptions& ins) {
-  const Eigen::Matrix3d body_from_cloud =
-      RotationBetween(ins.up, Eigen::Vector3d::UnitZ());
-  const Attitude& source = ins.source_attitude;
-  const Attitude& target = ins.target_attitude;
-  switch (ins.mode) {
-    case InsMode::kRelative:
-      return {RelativeTilt(source, target) * body_from_cloud, body_from_cloud};
-    case InsMode::kLeveled:
-    case InsMode::kFused:
-      return {LevelFromBody(source.roll, source.pitch) * body_from_cloud,
-              LevelFromBody(target.roll, target.pitch) * body_from_cloud};
-    case InsMode::kNone:
-      break;
-  }
-  return {body_from_cloud, body_from_cloud};
-}
+// Bounds of the alternation of inliers and pose, in noise bounds. The first
+// reaches farther. The second never makes the cost larger: where the matches
+// were fitted before, the prior has its say.
+using Schedule = std::array<double, 6>;
+constexpr Schedule kSchedules[] = {{2.0, 1.5, 1.0, 1.0, 1.0, 1.0},
+                                   {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}};
 
 // Column by column: equal columns must stay equal to the last bit, which a
 // product of matrices does not promise.
@@ -62,8 +45,10 @@ Points Turned(const Eigen::Matrix3d& rotation, const PointsRef& points) {
 double FusedCost(const DistinctMatches& matches,
                  const Rigid3& pose,
                  double noise_bound,
+                 double match_std,
                  const VerticalPrior& prior) {
-  return kSigmasInBound * kSigmasInBound *
+  const double sigmas = noise_bound / match_std;
+  return sigmas * sigmas *
              ConsensusCost(matches.source, matches.target, pose, noise_bound) +
          prior.Cost(pose.rotation);
 }
@@ -71,15 +56,17 @@ double FusedCost(const DistinctMatches& matches,
 std::optional<Rigid3> Refine(const DistinctMatches& matches,
                              Rigid3 pose,
                              double noise_bound,
-                             const VerticalPrior& prior) {
+                             double match_std,
+                             const VerticalPrior& prior,
+                             const Schedule& schedule) {
   std::vector<Eigen::Index> before;
-  for (const double factor : kSchedule) {
-    std::vector<Eigen::Index> inliers = FindAgreeing(
+  for (const double factor : schedule) {
+    std::vector<Eigen::Index> inliers = FindWithinBall(
         matches.source, matches.target, pose, factor * noise_bound);
     if (factor == 1.0 && inliers == before) break;
     const auto refined = RefineWithIns(Columns(matches.source, inliers),
                                        Columns(matches.target, inliers),
-                                       noise_bound / kSigmasInBound,
+                                       match_std,
                                        pose,
                                        prior);
     if (!refined) return std::nullopt;
@@ -93,20 +80,32 @@ std::optional<Rigid3> Refine(const DistinctMatches& matches,
 void Fuse(const PointsRef& source,
           const PointsRef& target,
           double noise_bound,
-          double attitude_std,
-          QuatroSummary* summary) {
-  const DistinctMatches matches = FindDistinctMatches(source, target);
+          const InsOptions& ins,
+          PoseSummary* summary) {
+  const DistinctMatches matches =
+      FindDistinctMatches(summary->scale * source, target);
+  const double match_std =
+      ins.match_std > 0.0 ? ins.match_std : noise_bound / kSigmasInBound;
   VerticalPrior prior;
-  prior.angle_std = std::sqrt(2.0) * attitude_std;  // Of both attitudes.
+  prior.angle_std = std::sqrt(2.0) * ins.attitude_std;  // Of both attitudes.
   const Rigid3 start = *summary->target_from_source;
-  const auto fused = Refine(matches, start, noise_bound, prior);
-  if (!fused) {
-    summary->message += "; too few inliers to fuse with the INS";
-    return;
+  bool is_held = false;
+  std::optional<Rigid3> fused;
+  double least = FusedCost(matches, start, noise_bound, match_std, prior);
+  for (const Schedule& schedule : kSchedules) {
+    const auto refined =
+        Refine(matches, start, noise_bound, match_std, prior, schedule);
+    if (!refined) continue;
+    is_held = true;
+    const double cost =
+        FusedCost(matches, *refined, noise_bound, match_std, prior);
+    if (!(cost < least)) continue;
+    least = cost;
+    fused = refined;
   }
-  if (!(FusedCost(matches, *fused, noise_bound, prior) <
-        FusedCost(matches, start, noise_bound, prior))) {
-    summary->message += "; fusing with the INS gave nothing better";
+  if (!fused) {
+    summary->message += is_held ? "; fusing with the INS gave nothing better"
+                                : "; too few inliers to fuse with the INS";
     return;
   }
   summary->message += "; fused with the INS";
@@ -122,43 +121,25 @@ void Fuse(const PointsRef& source,
   summary->translation_inliers = InputColumns(matches, inliers);
 }
 
-bool IsFinite(const Attitude& attitude) {
-  return std::isfinite(attitude.roll) && std::isfinite(attitude.pitch) &&
-         std::isfinite(attitude.yaw);
-}
-
-}  // namespace
-
-bool InsOptions::IsValid(std::string* error) const {
-  std::ostringstream problem;
-  if (!IsFinite(source_attitude)) {
-    problem << "ins.source_attitude must be finite";
-  } else if (!IsFinite(target_attitude)) {
-    problem << "ins.target_attitude must be finite";
-  } else if (!(attitude_std > 0.0 && attitude_std <= M_PI)) {
-    problem << "ins.attitude_std = " << attitude_std << ", must be in (0, pi]";
-  } else if (!(std::abs(up.norm() - 1.0) <= 1e-6)) {
-    problem << "ins.up = (" << up.transpose() << "), must be a unit vector";
-  }
-  *error = problem.str();
-  return error->empty();
-}
-
-QuatroSummary SolveQuatroWithIns(const PointsRef& source,
-                                 const PointsRef& target,
-                                 const QuatroOptions& options,
-                                 const InsOptions& ins) {
+// `solve` gives a Summary, which is a PoseSummary, of matches in level frames.
+template <typename Summary, typename Solve>
+Summary SolveInLevelFrames(const PointsRef& source,
+                           const PointsRef& target,
+                           const Solve& solve,
+                           double noise_bound,
+                           const InsOptions& ins) {
   CHECK_EQ(source.cols(), target.cols());
   std::string error;
   if (!ins.IsValid(&error)) {
-    QuatroSummary summary;
+    Summary summary;
     summary.message = error;
     return summary;
   }
+  if (ins.IsPlain()) return solve(source, target);
   const LevelFrames frames = MakeLevelFrames(ins);
   const Points level_source = Turned(frames.level_from_source, source);
   const Points level_target = Turned(frames.level_from_target, target);
-  QuatroSummary summary = SolveQuatro(level_source, level_target, options);
+  Summary summary = solve(level_source, level_target);
   if (!summary.IsUsable()) return summary;
   if (summary.model == PoseModel::kYawTranslation) {
     summary.vertical.emplace();
@@ -169,11 +150,7 @@ QuatroSummary SolveQuatroWithIns(const PointsRef& source,
 
   if (ins.mode == InsMode::kFused) {
     Stopwatch stopwatch;
-    Fuse(level_source,
-         level_target,
-         options.noise_bound,
-         ins.attitude_std,
-         &summary);
+    Fuse(level_source, level_target, noise_bound, ins, &summary);
     summary.stage_times.push_back({"fusion", stopwatch.Lap()});
   }
   const Eigen::Matrix3d target_from_level =
@@ -193,6 +170,72 @@ QuatroSummary SolveQuatroWithIns(const PointsRef& source,
                target_from_level * level.translation};  // Equation (1).
   }
   return summary;
+}
+
+bool IsFinite(const Attitude& attitude) {
+  return std::isfinite(attitude.roll) && std::isfinite(attitude.pitch) &&
+         std::isfinite(attitude.yaw);
+}
+
+}  // namespace
+
+bool InsOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!IsFinite(source_attitude)) {
+    problem << "ins.source_attitude must be finite";
+  } else if (!IsFinite(target_attitude)) {
+    problem << "ins.target_attitude must be finite";
+  } else if (!(attitude_std > 0.0 && attitude_std <= M_PI)) {
+    problem << "ins.attitude_std = " << attitude_std << ", must be in (0, pi]";
+  } else if (!(match_std >= 0.0 && std::isfinite(match_std))) {
+    problem << "ins.match_std = " << match_std << ", must be >= 0 and finite";
+  } else if (!(std::abs(up.norm() - 1.0) <= 1e-6)) {
+    problem << "ins.up = (" << up.transpose() << "), must be a unit vector";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+bool InsOptions::IsPlain() const {
+  return mode == InsMode::kNone && up == Eigen::Vector3d::UnitZ();
+}
+
+LevelFrames MakeLevelFrames(const InsOptions& ins) {
+  const Eigen::Matrix3d body_from_cloud =
+      RotationBetween(ins.up, Eigen::Vector3d::UnitZ());
+  const Attitude& source = ins.source_attitude;
+  const Attitude& target = ins.target_attitude;
+  switch (ins.mode) {
+    case InsMode::kRelative:
+      return {RelativeTilt(source, target) * body_from_cloud, body_from_cloud};
+    case InsMode::kLeveled:
+    case InsMode::kFused:
+      return {LevelFromBody(source.roll, source.pitch) * body_from_cloud,
+              LevelFromBody(target.roll, target.pitch) * body_from_cloud};
+    case InsMode::kNone:
+      break;
+  }
+  return {body_from_cloud, body_from_cloud};
+}
+
+QuatroSummary SolveQuatroWithIns(const PointsRef& source,
+                                 const PointsRef& target,
+                                 const QuatroOptions& options,
+                                 const InsOptions& ins) {
+  const auto solve = [&](const PointsRef& p, const PointsRef& q) {
+    return SolveQuatro(p, q, options);
+  };
+  return SolveInLevelFrames<QuatroSummary>(
+      source, target, solve, options.noise_bound, ins);
+}
+
+PoseSummary SolveWithIns(const PointsRef& source,
+                         const PointsRef& target,
+                         const PoseSolver& solver,
+                         double noise_bound,
+                         const InsOptions& ins) {
+  return SolveInLevelFrames<PoseSummary>(
+      source, target, solver, noise_bound, ins);
 }
 
 }  // namespace quatro

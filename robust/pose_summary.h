@@ -6,11 +6,13 @@
 #define QUATRO_ROBUST_POSE_SUMMARY_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "features/stopwatch.h"
+#include "features/types.h"
 #include "solvers/ins_refinement.h"
 #include "solvers/pose_covariance.h"
 #include "solvers/rigid3.h"
@@ -95,6 +97,10 @@ struct PoseSummary {
     return {};
   }
 };
+
+// Any estimator; its options are its own.
+using PoseSolver = std::function<PoseSummary(const PointsRef& source,
+                                             const PointsRef& target)>;
 
 }  // namespace quatro
 

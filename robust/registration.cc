@@ -23,7 +23,7 @@ namespace {
 // around its origin is in the coordinates of a map; there, above its middle,
 // from where it need not have been seen.
 struct AssumedSensor {
-  explicit AssumedSensor(const Points& points) {
+  AssumedSensor(const Points& points, const Eigen::Vector3d& up) {
     const Eigen::Vector3d low = points.rowwise().minCoeff();
     const Eigen::Vector3d high = points.rowwise().maxCoeff();
     const Eigen::Vector3d margin = 0.5 * (high - low);
@@ -31,7 +31,8 @@ struct AssumedSensor {
         (low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0;
     if (is_scan) return;
     const Eigen::Vector3d middle = 0.5 * (low + high);
-    place = {middle.x(), middle.y(), high.z()};
+    place =
+        middle + up * (up.transpose() * (points.colwise() - middle)).maxCoeff();
   }
 
   bool is_scan = true;
@@ -39,6 +40,7 @@ struct AssumedSensor {
 };
 
 struct DescribedCloud {
+  Eigen::Vector3d up;
   AssumedSensor sensor;
   KdTree tree;
   Points normals;
@@ -46,20 +48,51 @@ struct DescribedCloud {
 };
 
 SurfaceCloud AsSurface(const DescribedCloud& cloud) {
-  return {cloud.sensor.place, cloud.tree, cloud.normals, cloud.sensor.is_scan};
+  return {cloud.sensor.place,
+          cloud.tree,
+          cloud.normals,
+          cloud.sensor.is_scan,
+          cloud.up};
 }
 
 DescribedCloud Describe(const Points& points,
+                        const Eigen::Vector3d& up,
                         const FrontEndOptions& options,
                         int num_threads) {
-  const AssumedSensor sensor(points);
+  const AssumedSensor sensor(points, up);
   KdTree tree(points);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(tree, options.fpfh_radius, num_threads);
   Points normals = EstimateNormals(
       points, neighborhoods, options.normal_radius, sensor.place, num_threads);
   Fpfh fpfh = ComputeFpfh(points, normals, neighborhoods, num_threads);
-  return {sensor, std::move(tree), std::move(normals), std::move(fpfh)};
+  return {up, sensor, std::move(tree), std::move(normals), std::move(fpfh)};
+}
+
+// What the clouds say of the pose; what they do not hold goes into the summary.
+std::optional<GeometricEvidence> WeighGeometry(
+    const DescribedCloud& source,
+    const DescribedCloud& target,
+    const RegistrationOptions& options,
+    RegistrationSummary* summary) {
+  const Rigid3& pose = *summary->solution.target_from_source;
+  EvidenceOptions evidence;
+  evidence.voxel_size = options.front_end.voxel_size;
+  StructureHoldOptions hold = options.structure_hold;
+  hold.max_distance = evidence.max_distance_in_voxels * evidence.voxel_size;
+  summary->structure_hold = MeasureStructureHold(
+      AsSurface(source), AsSurface(target), pose, hold, options.num_threads);
+  if (summary->structure_hold) {
+    auto& unheld = summary->solution.covariance->unheld;
+    unheld.insert(unheld.end(),
+                  summary->structure_hold->unheld.begin(),
+                  summary->structure_hold->unheld.end());
+  }
+  return MeasureGeometricEvidence(AsSurface(source),
+                                  AsSurface(target),
+                                  pose,
+                                  evidence,
+                                  options.num_threads);
 }
 
 }  // namespace
@@ -87,8 +120,8 @@ bool RegistrationOptions::IsValid(std::string* error) const {
     return false;
   }
   return front_end.IsValid(error) && quatro.IsValid(error) &&
-         verdict.IsValid(error) && covariance.IsValid(error) &&
-         structure_hold.IsValid(error);
+         ins.IsValid(error) && verdict.IsValid(error) &&
+         covariance.IsValid(error) && structure_hold.IsValid(error);
 }
 
 RegistrationSummary Register(const PointCloud& source,
@@ -126,10 +159,17 @@ RegistrationSummary Register(const PointCloud& source,
   summary.num_target_voxels = target_voxels->cols();
   finish_stage("voxels");
 
+  const LevelFrames frames = MakeLevelFrames(options.ins);
   const DescribedCloud source_cloud =
-      Describe(*source_voxels, options.front_end, options.num_threads);
+      Describe(*source_voxels,
+               frames.level_from_source.row(2).transpose(),
+               options.front_end,
+               options.num_threads);
   const DescribedCloud target_cloud =
-      Describe(*target_voxels, options.front_end, options.num_threads);
+      Describe(*target_voxels,
+               frames.level_from_target.row(2).transpose(),
+               options.front_end,
+               options.num_threads);
   finish_stage("features");
 
   std::vector<Match> matches = MatchMutualNearest(
@@ -153,10 +193,15 @@ RegistrationSummary Register(const PointCloud& source,
   QuatroOptions quatro = options.quatro;
   quatro.num_threads = options.num_threads;
   quatro.seed = options.seed;
+  const PoseSolver solve_quatro = [&](const PointsRef& p, const PointsRef& q) {
+    return SolveQuatro(p, q, quatro);
+  };
   summary.solution =
-      options.solver
-          ? options.solver(summary.matched_source, summary.matched_target)
-          : SolveQuatro(summary.matched_source, summary.matched_target, quatro);
+      SolveWithIns(summary.matched_source,
+                   summary.matched_target,
+                   options.solver ? options.solver : solve_quatro,
+                   quatro.noise_bound,
+                   options.ins);
   AddCovariance(summary.matched_source,
                 summary.matched_target,
                 quatro.noise_bound,
@@ -169,32 +214,13 @@ RegistrationSummary Register(const PointCloud& source,
   }
   std::optional<GeometricEvidence> geometry;
   if (summary.solution.IsUsable()) {
-    EvidenceOptions evidence;
-    evidence.voxel_size = voxel_size;
-    geometry = MeasureGeometricEvidence(AsSurface(source_cloud),
-                                        AsSurface(target_cloud),
-                                        *summary.solution.target_from_source,
-                                        evidence,
-                                        options.num_threads);
-    StructureHoldOptions hold = options.structure_hold;
-    hold.max_distance = evidence.max_distance_in_voxels * voxel_size;
-    summary.structure_hold =
-        MeasureStructureHold(AsSurface(source_cloud),
-                             AsSurface(target_cloud),
-                             *summary.solution.target_from_source,
-                             hold,
-                             options.num_threads);
-    if (summary.structure_hold) {
-      auto& unheld = summary.solution.covariance->unheld;
-      unheld.insert(unheld.end(),
-                    summary.structure_hold->unheld.begin(),
-                    summary.structure_hold->unheld.end());
-    }
+    geometry = WeighGeometry(source_cloud, target_cloud, options, &summary);
     finish_stage("evidence");
   }
   VerdictOptions verdict = options.verdict;
   verdict.rival.seed = options.seed;
   verdict.rival.num_threads = options.num_threads;
+  verdict.rival.up_in_target = options.ins.up;
   summary.verdict = Judge(summary.matched_source,
                           summary.matched_target,
                           summary.solution,

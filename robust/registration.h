@@ -20,6 +20,7 @@
 #include "features/stopwatch.h"
 #include "features/tuple_test.h"
 #include "features/types.h"
+#include "robust/ins.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
 #include "robust/structure_hold.h"
@@ -40,15 +41,17 @@ struct FrontEndOptions {
   bool IsValid(std::string* error) const;
 };
 
-using PoseSolver = std::function<PoseSummary(const PointsRef& source,
-                                             const PointsRef& target)>;
-
 struct RegistrationOptions {
   FrontEndOptions front_end;
   QuatroOptions quatro;
 
   // Another estimator from matched points in place of Quatro.
   PoseSolver solver;
+
+  // Roll and pitch from an INS, and what is up. Whatever solves is given the
+  // matches in the level frames, `solver` too; a solver that knows an INS of
+  // its own needs none here. Its fusion takes quatro.noise_bound.
+  InsOptions ins;
 
   VerdictOptions verdict;
 

@@ -34,7 +34,7 @@ StructureSample SampleStructure(const SurfaceCloud& cloud,
                                 Eigen::Index num_wanted) {
   std::vector<Eigen::Index> all;
   for (Eigen::Index i = 0; i < cloud.normals.cols(); ++i) {
-    if (IsStructure(cloud.normals.col(i))) all.push_back(i);
+    if (IsStructure(cloud.normals.col(i), cloud.up)) all.push_back(i);
   }
   const auto num_all = static_cast<Eigen::Index>(all.size());
   const Eigen::Index num = std::min(num_all, num_wanted);
@@ -56,7 +56,7 @@ StructureGrid::StructureGrid(const SurfaceCloud& cloud, double max_distance)
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Eigen::Array3d point = points.col(i) - sensor_;
     if (point.matrix().norm() > max_range_ ||
-        !IsStructure(cloud.normals.col(i))) {
+        !IsStructure(cloud.normals.col(i), cloud.up)) {
       continue;
     }
     if (structure.empty()) low = high = point;

@@ -22,7 +22,9 @@ PoseSummary Solve(const std::string& name,
                   const MatchedProblem& problem,
                   const QuatroOptions& options = {}) {
   std::string error;
-  const PoseSolver solve = MakeSolver(name, options, &error);
+  InsOptions ins;  // Level.
+  if (name == "quatro_ins") ins.mode = InsMode::kLeveled;
+  const PoseSolver solve = MakeSolver(name, options, ins, &error);
   EXPECT_TRUE(solve) << name;
   EXPECT_EQ(error, "");
   return solve(problem.source, problem.target);
@@ -36,8 +38,12 @@ void ExpectSameBits(const PoseSummary& a, const PoseSummary& b) {
 
 TEST(Methods, AllNamesResolveAndSolve) {
   EXPECT_THAT(MethodNames(),
-              UnorderedElementsAre(
-                  "auto", "quatro", "quatro_exact", "arc_consensus", "teaser"));
+              UnorderedElementsAre("auto",
+                                   "quatro",
+                                   "quatro_exact",
+                                   "quatro_ins",
+                                   "arc_consensus",
+                                   "teaser"));
   const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.05, 1);
   for (const std::string& name : MethodNames()) {
     const PoseSummary summary = Solve(name, problem);
@@ -88,6 +94,49 @@ TEST(Methods, AnUnknownNameListsAll) {
     for (const std::string& known : MethodNames()) {
       EXPECT_THAT(error, HasSubstr(" " + known));
     }
+  }
+}
+
+TEST(Methods, QuatroInsNeedsAnIns) {
+  std::string error;
+  EXPECT_FALSE(MakeSolver("quatro_ins", {}, &error));
+  EXPECT_THAT(error, HasSubstr("needs an INS"));
+  EXPECT_THAT(error, HasSubstr("--source_rpy_deg"));
+  // An axis is not one.
+  InsOptions ins;
+  ins.up = Eigen::Vector3d::UnitX();
+  EXPECT_FALSE(MakeSolver("quatro_ins", {}, ins, &error));
+}
+
+TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
+  const SlopeProblem problem = MakeSlopeProblem(200, 0.5, 0.05, 0.2, 0.0, 1);
+  QuatroOptions options;
+  options.polish = false;
+  InsOptions ins;
+  ins.mode = InsMode::kLeveled;
+  ins.source_attitude = problem.source_attitude;
+  ins.target_attitude = problem.target_attitude;
+  for (const std::string& name : MethodNames()) {
+    std::string error;
+    const PoseSolver solve = MakeSolver(name, options, ins, &error);
+    const PoseSolver level = MakeLevelSolver(name, options, ins, &error);
+    ASSERT_EQ(static_cast<bool>(level), static_cast<bool>(solve)) << name;
+    if (name == "teaser") {
+      EXPECT_FALSE(solve);
+      EXPECT_THAT(error, HasSubstr("--ins_mode needs one of --method=auto, "));
+      EXPECT_THAT(error, HasSubstr("not teaser"));
+      continue;
+    }
+    ASSERT_TRUE(solve) << error;
+    const MatchedProblem& matches = problem.matches;
+    const PoseSummary summary = solve(matches.source, matches.target);
+    ASSERT_TRUE(summary.IsUsable()) << name;
+    EXPECT_LT(AngleBetween(summary.target_from_source->rotation,
+                           matches.true_target_from_source.rotation),
+              0.01)
+        << name;
+    ExpectSameBits(
+        SolveWithIns(matches.source, matches.target, level, 0.3, ins), summary);
   }
 }
 
