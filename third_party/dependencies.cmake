@@ -15,3 +15,11 @@ endif()
 if(QUATRO_BUILD_TESTS)
   find_package(GTest REQUIRED)
 endif()
+
+# To compare with; never needed.
+if(QUATRO_WITH_OPEN3D)
+  find_package(Open3D REQUIRED)  # 0.16; it accepts no version but its own.
+endif()
+if(QUATRO_WITH_PCL)
+  find_package(PCL 1.13 REQUIRED COMPONENTS features registration)
+endif()
