@@ -13,13 +13,16 @@
 //
 //   | |q_i - q_j| - |p_i - p_j| | <= 2 b,                                  (1)
 //
-// and samples that break (1) are dropped before any pose is computed; yaw-only
-// samples also those that break it for planar lengths or, up to a tilt, heights
-// (robust/consistency_graph.h). The test of Open3D is a ratio instead,
+// and samples that break (1) can be dropped before any pose is computed. The
+// test of Open3D is a ratio instead,
 //
 //   s |p_i - p_j| <= |q_i - q_j|  and  s |q_i - q_j| <= |p_i - p_j|,       (2)
 //
-// which drops short sides that are right and keeps long ones that can't be.
+// which drops short sides that are right and keeps long ones that can't be. On
+// real scans the first is a gain, for short sides hold no rotation, and so is
+// the second, for bounds are guesses; (1) drops more and takes less time.
+// Yaw-only samples must pass for their planar lengths as well, and in height up
+// to a tilt (robust/consistency_graph.h).
 
 #ifndef QUATRO_ROBUST_MINIMAL_POSE_H_
 #define QUATRO_ROBUST_MINIMAL_POSE_H_
@@ -49,7 +52,7 @@ enum class EdgeTest {
 struct MinimalPoseOptions {
   double noise_bound = 0.3;  // b [m]
   MinimalSample sample = MinimalSample::kThreePoints;
-  EdgeTest edge_test = EdgeTest::kBound;
+  EdgeTest edge_test = EdgeTest::kRatio;
   double edge_similarity = 0.9;  // s in (2), in (0, 1]; Open3D's default.
 
   // Of yaw-only samples: what roll and pitch may do to heights [rad].
