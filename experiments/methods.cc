@@ -82,9 +82,11 @@ PoseSolver MakeAuto(const QuatroOptions& options) {
 
 #ifdef QUATRO_WITH_OPEN3D
 PoseSolver MakeOpen3dFgr(const QuatroOptions& options) {
-  return [bound = options.noise_bound](const PointsRef& source,
-                                       const PointsRef& target) {
-    return SolveByOpen3dFgr(source, target, bound, {});
+  Open3dFgrOptions fgr;
+  fgr.seed = options.seed;
+  return [fgr, bound = options.noise_bound](const PointsRef& source,
+                                            const PointsRef& target) {
+    return SolveByOpen3dFgr(source, target, bound, fgr);
   };
 }
 

@@ -30,6 +30,10 @@ open3d::geometry::PointCloud ToCloud(const PointsRef& points) {
   return cloud;
 }
 
+void SeedOpen3d(std::uint64_t seed) {
+  open3d::utility::random::Seed(static_cast<int>(seed % 2147483647u));
+}
+
 // Calls `solve(source, target, matches)` and judges its pose by our inliers.
 PoseSummary Solve(
     const PointsRef& source,
@@ -97,6 +101,7 @@ PoseSummary SolveByOpen3dFgr(const PointsRef& source,
       options.relative_distance ? options.distance : noise_bound;
   option.iteration_number_ = options.num_iterations;
   option.tuple_test_ = options.tuple_test;
+  SeedOpen3d(options.seed);
   return Solve(source,
                target,
                noise_bound,
@@ -120,7 +125,7 @@ PoseSummary SolveByOpen3dRansac(const PointsRef& source,
   std::vector<std::reference_wrapper<const o3d::CorrespondenceChecker>>
       checkers;
   if (options.edge_similarity > 0.0) checkers = {edges, distance};
-  open3d::utility::random::Seed(static_cast<int>(options.seed % 2147483647u));
+  SeedOpen3d(options.seed);
   return Solve(source,
                target,
                noise_bound,

@@ -19,12 +19,13 @@
 namespace quatro {
 
 struct Open3dFgrOptions {
-  // Open3D's defaults: relative to the extent of the clouds. `false` takes the
-  // noise bound for the distance [m].
+  // False takes the noise bound for the distance [m]; true, Open3D's default,
+  // `distance` times the extent of the clouds.
   bool relative_distance = false;
-  double distance = 0.025;  // Of the extent, for relative_distance.
+  double distance = 0.025;
   int num_iterations = 64;
-  bool tuple_test = false;  // The front door has made it already.
+  bool tuple_test = true;  // Of its own, once more.
+  std::uint64_t seed = 0;  // Of the tuple test.
 };
 
 // `noise_bound` [m].
