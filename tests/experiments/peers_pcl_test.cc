@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <vector>
 
 #include "experiments/peers/pcl.h"
@@ -98,11 +97,6 @@ TEST(PclPeer, FpfhIsOursButForItsWeights) {
   // The documented difference: visible, and no other descriptor.
   EXPECT_GE(quantile(our_difference, 0.5), 2.0f);
   EXPECT_LE(quantile(our_difference, 0.5), 60.0f);
-  std::printf("of 300, median and 95 %%: composed %g %g, ours %g %g\n",
-              quantile(composed_difference, 0.5),
-              quantile(composed_difference, 0.95),
-              quantile(our_difference, 0.5),
-              quantile(our_difference, 0.95));
 }
 
 }  // namespace
