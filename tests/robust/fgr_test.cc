@@ -329,12 +329,12 @@ TEST(Fgr, FewerThanThreeMatchesAreNoAnswer) {
 }
 
 TEST(Fgr, MatchesOnALineAreDegenerate) {
-  for (const double noise : {0.0, 0.002}) {
+  for (const double width : {0.0, 0.01}) {
     const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 50,
                             .num_outliers = 0,
-                            .noise = noise,
-                            .half_widths = {40.0, 0.0, 0.0}},
+                            .noise = width,
+                            .half_widths = {40.0, width, width}},
                            1);
     const FgrSummary summary = Solve(problem);
     ExpectNoAnswer(summary, PoseTermination::kDegenerate);

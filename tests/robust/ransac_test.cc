@@ -380,6 +380,18 @@ TEST(Ransac, CopiesWithOtherNormalsAreOneMatchInAnyOrder) {
                                &shuffled_normals),
                    expected);
   }
+  // Alone, a match has the heading of its normals.
+  const auto solve_copies = [&](const std::vector<Eigen::Index>& copies) {
+    const MatchedNormals of_copies{Reordered(normals.source, copies),
+                                   Reordered(normals.target, copies)};
+    return SolveRansac(Reordered(source, copies),
+                       Reordered(target, copies),
+                       options,
+                       &of_copies);
+  };
+  ExpectSameBits(solve_copies({0, 8}), solve_copies({8, 0}));
+  EXPECT_NE(solve_copies({0}).target_from_source->rotation,
+            solve_copies({8}).target_from_source->rotation);
 }
 
 TEST(Ransac, SeedDecidesTheSamples) {
@@ -424,12 +436,13 @@ TEST(Ransac, FewerMatchesThanNeededAreNoAnswer) {
 }
 
 TEST(Ransac, MatchesOnALineAreDegenerate) {
-  for (const double noise : {0.0, 0.002}) {
-    ProblemWithNormals problem = MakeProblem({.num_inliers = 50,
-                                              .num_outliers = 0,
-                                              .noise = noise,
-                                              .half_widths = {40.0, 0.0, 0.0}},
-                                             1);
+  for (const double width : {0.0, 0.01}) {
+    ProblemWithNormals problem =
+        MakeProblem({.num_inliers = 50,
+                     .num_outliers = 0,
+                     .noise = width,
+                     .half_widths = {40.0, width, width}},
+                    1);
     const RansacSummary on_line = Solve(problem);
     ExpectNoAnswer(on_line, PoseTermination::kDegenerate);
     EXPECT_THAT(on_line.message, HasSubstr("on one line"));
@@ -438,8 +451,8 @@ TEST(Ransac, MatchesOnALineAreDegenerate) {
 
     problem = MakeProblem({.num_inliers = 50,
                            .num_outliers = 0,
-                           .noise = noise,
-                           .half_widths = {0.0, 0.0, 40.0}},
+                           .noise = width,
+                           .half_widths = {width, width, 40.0}},
                           1);
     const RansacSummary on_vertical =
         Solve(problem, WithSample(MinimalSample::kTwoPoints));
