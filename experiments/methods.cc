@@ -3,7 +3,12 @@
 
 #include "experiments/methods.h"
 
+#ifdef QUATRO_WITH_OPEN3D
+#include "experiments/peers/open3d.h"
+#endif
 #include "robust/arc_consensus.h"
+#include "robust/fgr.h"
+#include "robust/ransac.h"
 #include "robust/teaser.h"
 
 namespace quatro {
@@ -45,6 +50,28 @@ PoseSolver MakeTeaser(const QuatroOptions& options) {
   };
 }
 
+PoseSolver MakeRansac(const QuatroOptions& options,
+                      std::int64_t max_iterations) {
+  RansacOptions ransac;
+  ransac.minimal.noise_bound = options.noise_bound;
+  ransac.minimal.max_tilt = options.max_tilt;
+  ransac.max_iterations = max_iterations;
+  ransac.seed = options.seed;
+  ransac.num_threads = options.num_threads;
+  return [ransac](const PointsRef& source, const PointsRef& target) {
+    return SolveRansac(source, target, ransac);
+  };
+}
+
+PoseSolver MakeFgr(const QuatroOptions& options) {
+  FgrOptions fgr;
+  fgr.noise_bound = options.noise_bound;
+  fgr.num_threads = options.num_threads;
+  return [fgr](const PointsRef& source, const PointsRef& target) {
+    return SolveFgr(source, target, fgr);
+  };
+}
+
 PoseSolver MakeAuto(const QuatroOptions& options) {
   const PoseSolver few = MakeQuatro(options);
   const PoseSolver many = MakeArcConsensus(options);
@@ -52,6 +79,26 @@ PoseSolver MakeAuto(const QuatroOptions& options) {
     return (source.cols() > kMaxGraphMatches ? many : few)(source, target);
   };
 }
+
+#ifdef QUATRO_WITH_OPEN3D
+PoseSolver MakeOpen3dFgr(const QuatroOptions& options) {
+  Open3dFgrOptions fgr;
+  fgr.seed = options.seed;
+  return [fgr, bound = options.noise_bound](const PointsRef& source,
+                                            const PointsRef& target) {
+    return SolveByOpen3dFgr(source, target, bound, fgr);
+  };
+}
+
+PoseSolver MakeOpen3dRansac(const QuatroOptions& options) {
+  Open3dRansacOptions ransac;
+  ransac.seed = options.seed;
+  return [ransac, bound = options.noise_bound](const PointsRef& source,
+                                               const PointsRef& target) {
+    return SolveByOpen3dRansac(source, target, bound, ransac);
+  };
+}
+#endif
 
 enum class Ins { kRefused, kTaken, kNeeded };
 
@@ -86,6 +133,19 @@ constexpr Method kMethods[] = {
     {"teaser",
      "TEASER++: exact clique, SO(3) by GNC, translation by axis",
      MakeTeaser},
+    {"fgr", "FGR: SE(3) by a line process, mu falling", MakeFgr},
+    {"ransac1k",
+     "RANSAC: three points, 1,000 samples at most",
+     [](const QuatroOptions& options) { return MakeRansac(options, 1000); }},
+    {"ransac10k",
+     "RANSAC: three points, 10,000 samples at most",
+     [](const QuatroOptions& options) { return MakeRansac(options, 10'000); }},
+#ifdef QUATRO_WITH_OPEN3D
+    {"open3d_fgr", "FGR of Open3D, the same matches", MakeOpen3dFgr},
+    {"open3d_ransac",
+     "RANSAC of Open3D, 10,000 samples at most",
+     MakeOpen3dRansac},
+#endif
 };
 
 // The names of the methods that take an INS: "auto, quatro, ...".

