@@ -94,15 +94,15 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
   return neighbors;
 }
 
-Neighborhoods FindNeighborhoods(const KdTree& tree,
-                                double radius,
-                                int num_threads) {
-  const Eigen::Index n = tree.points().cols();
+namespace {
+
+// Of find(i), the neighbors of point i in ascending order of index.
+template <typename Find>
+Neighborhoods Collect(Eigen::Index n, int num_threads, const Find& find) {
   std::vector<std::vector<Neighbor>> rows(static_cast<std::size_t>(n));
   ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
     for (Eigen::Index i = begin; i < end; ++i) {
-      rows[static_cast<std::size_t>(i)] =
-          tree.WithinRadius(tree.points().col(i), radius);
+      rows[static_cast<std::size_t>(i)] = find(i);
     }
   });
 
@@ -123,6 +123,29 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
     std::vector<Neighbor>().swap(row);
   }
   return result;
+}
+
+}  // namespace
+
+Neighborhoods FindNeighborhoods(const KdTree& tree,
+                                double radius,
+                                int num_threads) {
+  return Collect(tree.points().cols(), num_threads, [&](Eigen::Index i) {
+    return tree.WithinRadius(tree.points().col(i), radius);
+  });
+}
+
+Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
+                                       int k,
+                                       int num_threads) {
+  return Collect(tree.points().cols(), num_threads, [&](Eigen::Index i) {
+    std::vector<Neighbor> nearest = tree.Nearest(tree.points().col(i), k);
+    std::sort(
+        nearest.begin(),
+        nearest.end(),
+        [](const Neighbor& a, const Neighbor& b) { return a.index < b.index; });
+    return nearest;
+  });
 }
 
 }  // namespace quatro
