@@ -94,15 +94,15 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
   return neighbors;
 }
 
-namespace {
-
-// Of find(i), the neighbors of point i in ascending order of index.
-template <typename Find>
-Neighborhoods Collect(Eigen::Index n, int num_threads, const Find& find) {
+Neighborhoods FindNeighborhoods(const KdTree& tree,
+                                double radius,
+                                int num_threads) {
+  const Eigen::Index n = tree.points().cols();
   std::vector<std::vector<Neighbor>> rows(static_cast<std::size_t>(n));
   ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
     for (Eigen::Index i = begin; i < end; ++i) {
-      rows[static_cast<std::size_t>(i)] = find(i);
+      rows[static_cast<std::size_t>(i)] =
+          tree.WithinRadius(tree.points().col(i), radius);
     }
   });
 
@@ -125,27 +125,35 @@ Neighborhoods Collect(Eigen::Index n, int num_threads, const Find& find) {
   return result;
 }
 
-}  // namespace
-
-Neighborhoods FindNeighborhoods(const KdTree& tree,
-                                double radius,
-                                int num_threads) {
-  return Collect(tree.points().cols(), num_threads, [&](Eigen::Index i) {
-    return tree.WithinRadius(tree.points().col(i), radius);
-  });
-}
-
 Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
                                        int k,
                                        int num_threads) {
-  return Collect(tree.points().cols(), num_threads, [&](Eigen::Index i) {
-    std::vector<Neighbor> nearest = tree.Nearest(tree.points().col(i), k);
-    std::sort(
-        nearest.begin(),
-        nearest.end(),
-        [](const Neighbor& a, const Neighbor& b) { return a.index < b.index; });
-    return nearest;
+  const Eigen::Index n = tree.points().cols();
+  const Eigen::Index row_size = std::clamp<Eigen::Index>(k, 0, n);
+  Neighborhoods result;
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    result.row_begin.push_back(i * row_size);
+  }
+  result.index.resize(static_cast<std::size_t>(n * row_size));
+  result.squared_distance.resize(result.index.size());
+  ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index i = begin; i < end; ++i) {
+      auto nearest =
+          tree.Nearest(tree.points().col(i), static_cast<int>(row_size));
+      std::sort(nearest.begin(),
+                nearest.end(),
+                [](const Neighbor& a, const Neighbor& b) {
+                  return a.index < b.index;
+                });
+      auto at = static_cast<std::size_t>(i * row_size);
+      for (const Neighbor& neighbor : nearest) {
+        result.index[at] = static_cast<std::int32_t>(neighbor.index);
+        result.squared_distance[at++] =
+            static_cast<float>(neighbor.squared_distance);
+      }
+    }
   });
+  return result;
 }
 
 }  // namespace quatro

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The front door: two point clouds in, a pose and how it came about out.
 //
-//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> verdict
+//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> refinement
+//          -> verdict
 //
 // Source: Section III.A of the Quatro paper for the front end.
 
@@ -22,6 +23,7 @@
 #include "features/types.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
+#include "robust/refinement.h"
 #include "robust/verdict.h"
 #include "solvers/rigid3.h"
 
@@ -48,8 +50,12 @@ struct RegistrationOptions {
   // Another estimator from matched points in place of Quatro.
   PoseSolver solver;
 
+  // On the voxel means and their normals. None by default.
+  RefinementOptions refinement;
+
   VerdictOptions verdict;
-  // For all parts: those of front_end.tuple and quatro are replaced by these.
+  // For all parts: those of front_end.tuple, quatro and refinement are replaced
+  // by these.
   int num_threads = 1;  // 0: all cores. Never changes the answer.
   std::uint64_t seed = 0;
 
@@ -74,7 +80,8 @@ struct RegistrationSummary {
   Eigen::Index num_target_voxels = 0;
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  PoseSummary solution;
+  PoseSummary solution;  // Its pose is the refined one, if there is one.
+  std::optional<RefinementSummary> refinement;  // If asked for and tried.
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 
