@@ -196,7 +196,9 @@ void Conclude(const System& system,
               AlignmentSummary* summary) {
   Matrix6 about_origin = Matrix6::Identity();
   about_origin.bottomLeftCorner<3, 3>() = -Skew(lever);
-  summary->hessian = about_origin.transpose() * system.hessian * about_origin;
+  const Matrix6 hessian =
+      about_origin.transpose() * system.hessian * about_origin;
+  summary->hessian = 0.5 * (hessian + hessian.transpose());
   summary->cost = system.cost;
   summary->num_inliers = system.num_inliers;
   if (system.num_inliers < kMinCorrespondences) return;
