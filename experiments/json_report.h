@@ -7,12 +7,14 @@
 #define QUATRO_EXPERIMENTS_JSON_REPORT_H_
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "features/stopwatch.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
+#include "robust/refinement.h"
 #include "robust/registration.h"
 #include "robust/verdict.h"
 
@@ -28,6 +30,11 @@ Json MakeReport(const std::string& method,
                 const PoseSummary& solution,
                 const std::vector<StageTime>& stage_times,
                 double total_seconds);
+
+// Method, termination, message, whether it was accepted, iterations, inliers,
+// moved_m and moved_deg, cost, conditioning and the pose before. Null if it was
+// not tried.
+Json DescribeRefinement(const std::optional<RefinementSummary>& refinement);
 
 // The parameters as given and used.
 Json DescribeOptions(const QuatroOptions& options);

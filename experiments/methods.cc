@@ -4,6 +4,7 @@
 #include "experiments/methods.h"
 
 #include "robust/arc_consensus.h"
+#include "robust/local_registration.h"
 #include "robust/teaser.h"
 
 namespace quatro {
@@ -53,10 +54,34 @@ PoseSolver MakeAuto(const QuatroOptions& options) {
   };
 }
 
+RegistrationSummary RegisterCoarseToFine(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) {
+  RegistrationOptions c2f = options;
+  c2f.solver = MakeQuatro(options.quatro);
+  c2f.refinement.method = RefinementMethod::kGicp;
+  return Register(source, target, c2f);
+}
+
+// From no motion as the guess.
+template <RefinementMethod method>
+RegistrationSummary RegisterFromIdentity(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) {
+  RegistrationOptions local = options;
+  local.refinement.method = method;
+  return RegisterLocally(source, target, Rigid3(), local);
+}
+
+// From matches, `make`, or else from clouds, `register_clouds`.
 struct Method {
   const char* name;
   const char* description;
   PoseSolver (*make)(const QuatroOptions& options);
+  RegistrationSummary (*register_clouds)(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) =
+      nullptr;
 };
 
 constexpr Method kMethods[] = {
@@ -71,13 +96,39 @@ constexpr Method kMethods[] = {
     {"teaser",
      "TEASER++: exact clique, SO(3) by GNC, translation by axis",
      MakeTeaser},
+    {"quatro_c2f",
+     "clouds: quatro, then G-ICP from its pose",
+     nullptr,
+     RegisterCoarseToFine},
+    {"icp",
+     "clouds: point to point from no motion",
+     nullptr,
+     RegisterFromIdentity<RefinementMethod::kIcp>},
+    {"gicp",
+     "clouds: plane to plane from no motion",
+     nullptr,
+     RegisterFromIdentity<RefinementMethod::kGicp>},
+    {"vgicp",
+     "clouds: plane to voxels' planes from no motion",
+     nullptr,
+     RegisterFromIdentity<RefinementMethod::kVgicp>},
 };
 
 }  // namespace
 
 std::vector<std::string> MethodNames() {
   std::vector<std::string> names;
-  for (const Method& method : kMethods) names.emplace_back(method.name);
+  for (const Method& method : kMethods) {
+    if (method.make) names.emplace_back(method.name);
+  }
+  return names;
+}
+
+std::vector<std::string> CloudMethodNames() {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) {
+    if (method.register_clouds) names.emplace_back(method.name);
+  }
   return names;
 }
 
@@ -95,13 +146,40 @@ PoseSolver MakeSolver(const std::string& name,
                       const QuatroOptions& options,
                       std::string* error) {
   for (const Method& method : kMethods) {
-    if (name == method.name) return method.make(options);
+    if (name != method.name) continue;
+    if (method.make) return method.make(options);
+    *error = "--method=" + name + " works on clouds, not on matches";
+    return nullptr;
   }
   *error = "--method=" + name + ", must be one of";
   for (const Method& method : kMethods) {
     *error += std::string(" ") + method.name;
   }
   return nullptr;
+}
+
+CloudSolver FindCloudSolver(const std::string& name) {
+  for (const Method& method : kMethods) {
+    if (name == method.name && method.register_clouds) {
+      return method.register_clouds;
+    }
+  }
+  return nullptr;
+}
+
+bool ParseRefinement(const std::string& text,
+                     RefinementMethod* method,
+                     std::string* error) {
+  for (const RefinementMethod known : {RefinementMethod::kNone,
+                                       RefinementMethod::kIcp,
+                                       RefinementMethod::kGicp,
+                                       RefinementMethod::kVgicp}) {
+    if (text != RefinementName(known)) continue;
+    *method = known;
+    return true;
+  }
+  *error = "--refine=" + text + ", must be none, icp, gicp or vgicp";
+  return false;
 }
 
 bool ApplySwitch(const std::string& flag,

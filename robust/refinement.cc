@@ -60,6 +60,13 @@ bool RefinementOptions::IsValid(std::string* error) const {
   return false;
 }
 
+void RefinementSummary::SetMoved(const Eigen::Vector3d& source_middle,
+                                 const Rigid3& found) {
+  const Rigid3& before = unrefined_target_from_source;
+  moved_translation = (found * source_middle - before * source_middle).norm();
+  moved_rotation = AngleBetween(found.rotation, before.rotation);
+}
+
 AlignmentSummary Align(const AlignmentCloud& source,
                        const AlignmentCloud& target,
                        const Rigid3& initial_target_from_source,
@@ -106,11 +113,7 @@ RefinementSummary Refine(const AlignmentCloud& source,
   if (!summary.alignment.IsUsable()) return summary;
 
   const Rigid3& refined = *summary.alignment.target_from_source;
-  const Eigen::Vector3d middle = source.tree.points().rowwise().mean();
-  summary.moved_translation =
-      (refined * middle - target_from_source * middle).norm();
-  summary.moved_rotation =
-      AngleBetween(refined.rotation, target_from_source.rotation);
+  summary.SetMoved(source.tree.points().rowwise().mean(), refined);
   if (summary.alignment.termination != AlignmentTermination::kConverged) {
     return summary;
   }

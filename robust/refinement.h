@@ -59,6 +59,9 @@ struct RefinementSummary {
   // From the pose given to the one found, accepted or not; 0 without one.
   double moved_translation = 0.0;  // Of the source's middle [m].
   double moved_rotation = 0.0;     // [rad]
+
+  // From unrefined_target_from_source.
+  void SetMoved(const Eigen::Vector3d& source_middle, const Rigid3& found);
 };
 
 // Local registration by the method, from a pose. kNone gives no answer.

@@ -110,6 +110,12 @@ const char* NameOf(const ::testing::TestParamInfo<Method>& test) {
   return test.param == Method::kGicp ? "Gicp" : "Vgicp";
 }
 
+// Those whose q and p can be one point: a voxel's mean never is.
+class PointwiseAlignmentTest : public LocalAlignmentTest {};
+
+// Those that see surfaces: in ICP, points of a plane hold each other.
+class SurfaceAlignmentTest : public LocalAlignmentTest {};
+
 INSTANTIATE_TEST_SUITE_P(Methods,
                          LocalAlignmentTest,
                          ::testing::Values(Method::kIcp,
