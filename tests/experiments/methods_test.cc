@@ -112,8 +112,8 @@ TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
   PointCloud source;
   PointCloud target;
   source.points = RandomStreet(3000, 0.01, 1);
-  target.points = RandomStreet(3000, 0.01, 2).colwise() +
-                  Eigen::Vector3d(0.2, -0.1, 0.0);
+  target.points =
+      RandomStreet(3000, 0.01, 2).colwise() + Eigen::Vector3d(0.2, -0.1, 0.0);
   RegistrationOptions options;
   for (const std::string& name : CloudMethodNames()) {
     const RegistrationSummary summary =
