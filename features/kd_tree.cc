@@ -138,13 +138,8 @@ Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
   result.squared_distance.resize(result.index.size());
   ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
     for (Eigen::Index i = begin; i < end; ++i) {
-      auto nearest =
+      const auto nearest =
           tree.Nearest(tree.points().col(i), static_cast<int>(row_size));
-      std::sort(nearest.begin(),
-                nearest.end(),
-                [](const Neighbor& a, const Neighbor& b) {
-                  return a.index < b.index;
-                });
       auto at = static_cast<std::size_t>(i * row_size);
       for (const Neighbor& neighbor : nearest) {
         result.index[at] = static_cast<std::int32_t>(neighbor.index);

@@ -60,8 +60,7 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);
 
-// The same of the `k` nearest, itself among them; fewer if the tree holds
-// fewer.
+// The same of the `k` nearest, nearest first; fewer if the tree holds fewer.
 Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
                                        int k,
                                        int num_threads);
