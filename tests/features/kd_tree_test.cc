@@ -296,8 +296,12 @@ TEST(FindNearestNeighborhoods, RowsAreTheNearestOfEachPoint) {
 
 TEST(FindNearestNeighborhoods, FewerPointsThanAskedForAreAllFound) {
   const KdTree tree(RandomPoints(3, 1.0, 1));
-  EXPECT_THAT(FindNearestNeighborhoods(tree, 20, 1).index,
-              ElementsAre(0, 1, 2, 0, 1, 2, 0, 1, 2));
+  const Neighborhoods all = FindNearestNeighborhoods(tree, 20, 1);
+  EXPECT_THAT(all.row_begin, ElementsAre(0, 3, 6, 9));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(all.index[3 * i], static_cast<std::int32_t>(i));
+    EXPECT_EQ(all.squared_distance[3 * i], 0.0f);
+  }
   EXPECT_EQ(FindNearestNeighborhoods(KdTree(Points(3, 0)), 20, 1).size(), 0);
 }
 
