@@ -265,6 +265,23 @@ Json Describe(const std::optional<StructureHold>& hold) {
           {"weakest_level_share", hold->weakest_level_share}};
 }
 
+Json DescribeRefinement(const std::optional<RefinementSummary>& refinement) {
+  if (!refinement) return nullptr;
+  const AlignmentSummary& alignment = refinement->alignment;
+  return {{"method", RefinementName(refinement->method)},
+          {"accepted", refinement->is_accepted},
+          {"message", refinement->message},
+          {"termination", TerminationName(alignment.termination)},
+          {"iterations", alignment.iterations.size()},
+          {"inliers", alignment.num_inliers},
+          {"moved_m", refinement->moved_translation},
+          {"moved_deg", refinement->moved_rotation * 180.0 / M_PI},
+          {"cost", alignment.cost},
+          {"conditioning", alignment.conditioning},
+          {"unrefined_target_from_source",
+           Rows(refinement->unrefined_target_from_source)}};
+}
+
 Json DescribeOptions(const QuatroOptions& options) {
   return {{"noise_bound", options.noise_bound},
           {"tim_bound_factor", options.tim_bound_factor},

@@ -14,6 +14,7 @@
 #include "features/stopwatch.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
+#include "robust/refinement.h"
 #include "robust/registration.h"
 #include "robust/structure_hold.h"
 #include "robust/verdict.h"
@@ -34,6 +35,11 @@ Json MakeReport(const std::string& method,
 
 // What the surfaces hold of the position on the ground, or null.
 Json Describe(const std::optional<StructureHold>& hold);
+
+// Method, termination, message, whether it was accepted, iterations, inliers,
+// moved_m and moved_deg, cost, conditioning and the pose before. Null if it was
+// not tried.
+Json DescribeRefinement(const std::optional<RefinementSummary>& refinement);
 
 // The parameters as given and used.
 Json DescribeOptions(const QuatroOptions& options);

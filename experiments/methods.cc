@@ -8,6 +8,7 @@
 #endif
 #include "robust/arc_consensus.h"
 #include "robust/fgr.h"
+#include "robust/local_registration.h"
 #include "robust/ransac.h"
 #include "robust/teaser.h"
 
@@ -100,13 +101,37 @@ PoseSolver MakeOpen3dRansac(const QuatroOptions& options) {
 }
 #endif
 
+RegistrationSummary RegisterCoarseToFine(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) {
+  RegistrationOptions c2f = options;
+  c2f.solver = MakeQuatro(options.quatro);
+  c2f.refinement.method = RefinementMethod::kGicp;
+  return Register(source, target, c2f);
+}
+
+// From no motion as the guess.
+template <RefinementMethod method>
+RegistrationSummary RegisterFromIdentity(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) {
+  RegistrationOptions local = options;
+  local.refinement.method = method;
+  return RegisterLocally(source, target, Rigid3(), local);
+}
+
 enum class Ins { kRefused, kTaken, kNeeded };
 
+// From matches, `make`, or else from clouds, `register_clouds`.
 struct Method {
   const char* name;
   const char* description;
   PoseSolver (*make)(const QuatroOptions& options);
   Ins ins = Ins::kRefused;
+  RegistrationSummary (*register_clouds)(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) =
+      nullptr;
 };
 
 constexpr Method kMethods[] = {
@@ -146,6 +171,26 @@ constexpr Method kMethods[] = {
      "RANSAC of Open3D, 10,000 samples at most",
      MakeOpen3dRansac},
 #endif
+    {"quatro_c2f",
+     "clouds: quatro, then G-ICP from its pose",
+     nullptr,
+     Ins::kRefused,
+     RegisterCoarseToFine},
+    {"icp",
+     "clouds: point to point from no motion",
+     nullptr,
+     Ins::kRefused,
+     RegisterFromIdentity<RefinementMethod::kIcp>},
+    {"gicp",
+     "clouds: plane to plane from no motion",
+     nullptr,
+     Ins::kRefused,
+     RegisterFromIdentity<RefinementMethod::kGicp>},
+    {"vgicp",
+     "clouds: plane to voxels' planes from no motion",
+     nullptr,
+     Ins::kRefused,
+     RegisterFromIdentity<RefinementMethod::kVgicp>},
 };
 
 // The names of the methods that take an INS: "auto, quatro, ...".
@@ -162,7 +207,17 @@ std::string NamesThatTakeIns() {
 
 std::vector<std::string> MethodNames() {
   std::vector<std::string> names;
-  for (const Method& method : kMethods) names.emplace_back(method.name);
+  for (const Method& method : kMethods) {
+    if (method.make) names.emplace_back(method.name);
+  }
+  return names;
+}
+
+std::vector<std::string> CloudMethodNames() {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) {
+    if (method.register_clouds) names.emplace_back(method.name);
+  }
   return names;
 }
 
@@ -182,6 +237,10 @@ PoseSolver MakeLevelSolver(const std::string& name,
                            std::string* error) {
   for (const Method& method : kMethods) {
     if (name != method.name) continue;
+    if (!method.make) {
+      *error = "--method=" + name + " works on clouds, not on matches";
+      return nullptr;
+    }
     if (!ins.IsValid(error)) return nullptr;
     if (method.ins == Ins::kNeeded && ins.mode == InsMode::kNone) {
       *error = "--method=" + name +
@@ -220,6 +279,30 @@ PoseSolver MakeSolver(const std::string& name,
                       const QuatroOptions& options,
                       std::string* error) {
   return MakeSolver(name, options, InsOptions(), error);
+}
+
+CloudSolver FindCloudSolver(const std::string& name) {
+  for (const Method& method : kMethods) {
+    if (name == method.name && method.register_clouds) {
+      return method.register_clouds;
+    }
+  }
+  return nullptr;
+}
+
+bool ParseRefinement(const std::string& text,
+                     RefinementMethod* method,
+                     std::string* error) {
+  for (const RefinementMethod known : {RefinementMethod::kNone,
+                                       RefinementMethod::kIcp,
+                                       RefinementMethod::kGicp,
+                                       RefinementMethod::kVgicp}) {
+    if (text != RefinementName(known)) continue;
+    *method = known;
+    return true;
+  }
+  *error = "--refine=" + text + ", must be none, icp, gicp or vgicp";
+  return false;
 }
 
 bool ApplySwitch(const std::string& flag,

@@ -121,7 +121,8 @@ bool RegistrationOptions::IsValid(std::string* error) const {
   }
   return front_end.IsValid(error) && quatro.IsValid(error) &&
          ins.IsValid(error) && verdict.IsValid(error) &&
-         covariance.IsValid(error) && structure_hold.IsValid(error);
+         covariance.IsValid(error) && structure_hold.IsValid(error) &&
+         refinement.IsValid(error);
 }
 
 RegistrationSummary Register(const PointCloud& source,
@@ -211,6 +212,21 @@ RegistrationSummary Register(const PointCloud& source,
   for (const StageTime& time : summary.solution.stage_times) {
     summary.stage_times.push_back(time);
     if (options.progress) options.progress(time);
+  }
+  if (options.refinement.method != RefinementMethod::kNone &&
+      summary.solution.IsUsable()) {
+    RefinementOptions refinement = options.refinement;
+    refinement.alignment.num_threads = options.num_threads;
+    summary.refinement = Refine({source_cloud.tree, source_cloud.normals},
+                                {target_cloud.tree, target_cloud.normals},
+                                summary.matched_source,
+                                summary.matched_target,
+                                quatro.noise_bound,
+                                *summary.solution.target_from_source,
+                                refinement);
+    summary.solution.target_from_source =
+        summary.refinement->target_from_source;
+    finish_stage("refinement");
   }
   std::optional<GeometricEvidence> geometry;
   if (summary.solution.IsUsable()) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The front door: two point clouds in, a pose and how it came about out.
 //
-//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> verdict
+//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> refinement
+//          -> verdict
 //
 // Source: Section III.A of the Quatro paper for the front end.
 
@@ -23,6 +24,7 @@
 #include "robust/ins.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
+#include "robust/refinement.h"
 #include "robust/structure_hold.h"
 #include "robust/verdict.h"
 #include "solvers/pose_covariance.h"
@@ -59,7 +61,11 @@ struct RegistrationOptions {
   PoseCovarianceOptions covariance;
   StructureHoldOptions structure_hold;
 
-  // For all parts: those of front_end.tuple and quatro are replaced by these.
+  // On the voxel means and their normals. None by default.
+  RefinementOptions refinement;
+
+  // For all parts: those of front_end.tuple, quatro and refinement are replaced
+  // by these.
   int num_threads = 1;  // 0: all cores. Never changes the answer.
   std::uint64_t seed = 0;
 
@@ -84,7 +90,8 @@ struct RegistrationSummary {
   Eigen::Index num_target_voxels = 0;
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  PoseSummary solution;
+  PoseSummary solution;  // Its pose is the refined one, if there is one.
+  std::optional<RefinementSummary> refinement;  // If asked for and tried.
 
   // What the surfaces hold; the directions that they do not are among
   // solution.covariance's, too.

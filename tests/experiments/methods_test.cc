@@ -13,12 +13,14 @@
 #include "robust/fgr.h"
 #include "robust/ransac.h"
 #include "robust/teaser.h"
+#include "tests/support/random_problems.h"
 
 namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::UnorderedElementsAre;
 
 PoseSummary Solve(const std::string& name,
                   const MatchedProblem& problem,
@@ -133,10 +135,13 @@ TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
     const PoseSolver solve = MakeSolver(name, options, ins, &error);
     const PoseSolver level = MakeLevelSolver(name, options, ins, &error);
     ASSERT_EQ(static_cast<bool>(level), static_cast<bool>(solve)) << name;
-    if (name == "teaser") {
+    const bool is_about_the_vertical = name == "auto" ||
+                                       name == "arc_consensus" ||
+                                       name.rfind("quatro", 0) == 0;
+    if (!is_about_the_vertical) {
       EXPECT_FALSE(solve);
       EXPECT_THAT(error, HasSubstr("--ins_mode needs one of --method=auto, "));
-      EXPECT_THAT(error, HasSubstr("not teaser"));
+      EXPECT_THAT(error, HasSubstr("not " + name));
       continue;
     }
     ASSERT_TRUE(solve) << error;
@@ -150,6 +155,59 @@ TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
     ExpectSameBits(
         SolveWithIns(matches.source, matches.target, level, 0.3, ins), summary);
   }
+}
+
+TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
+  EXPECT_THAT(CloudMethodNames(),
+              UnorderedElementsAre("quatro_c2f", "icp", "gicp", "vgicp"));
+  for (const std::string& name : CloudMethodNames()) {
+    std::string error;
+    EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
+    EXPECT_THAT(error, HasSubstr(name + " works on clouds, not on matches"));
+    EXPECT_TRUE(FindCloudSolver(name)) << name;
+    EXPECT_THAT(DescribeMethods(), HasSubstr(name + " ")) << name;
+  }
+  for (const std::string& name : MethodNames()) {
+    EXPECT_FALSE(FindCloudSolver(name)) << name;
+  }
+  EXPECT_FALSE(FindCloudSolver("nothing"));
+}
+
+TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
+  PointCloud source;
+  PointCloud target;
+  source.points = RandomStreet(3000, 0.01, 1);
+  target.points =
+      RandomStreet(3000, 0.01, 2).colwise() + Eigen::Vector3d(0.2, -0.1, 0.0);
+  RegistrationOptions options;
+  for (const std::string& name : CloudMethodNames()) {
+    const RegistrationSummary summary =
+        FindCloudSolver(name)(source, target, options);
+    ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
+    EXPECT_TRUE(summary.refinement->is_accepted) << name;
+    const bool is_global = name == "quatro_c2f";
+    EXPECT_EQ(RefinementName(summary.refinement->method),
+              is_global ? "gicp" : name);
+    EXPECT_EQ(summary.verdict.IsRegistered(), is_global) << name;
+    EXPECT_LE((summary.target_from_source()->translation -
+               Eigen::Vector3d(0.2, -0.1, 0.0))
+                  .norm(),
+              0.1)
+        << name;
+  }
+}
+
+TEST(Methods, RefinementsAreKnownByTheirNames) {
+  for (const char* name : {"none", "icp", "gicp", "vgicp"}) {
+    RefinementMethod method{};
+    std::string error;
+    ASSERT_TRUE(ParseRefinement(name, &method, &error)) << error;
+    EXPECT_STREQ(RefinementName(method), name);
+  }
+  RefinementMethod method{};
+  std::string error;
+  EXPECT_FALSE(ParseRefinement("GICP", &method, &error));
+  EXPECT_THAT(error, HasSubstr("--refine=GICP"));
 }
 
 TEST(Methods, AutoTakesArcConsensusAboveTwentyThousandMatches) {
