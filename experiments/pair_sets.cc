@@ -280,7 +280,7 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
   world_options.num_features = options.num_features;
 
   SetPair pair;
-  pair.seed = world_options.seed;
+  pair.seed = pair.target_seed = world_options.seed;
   const World world = MakeWorld(world_options);
   std::optional<World> other;  // Of the source, if that is elsewhere.
   if (options.no_overlap) {
@@ -299,6 +299,8 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
 
   const Rigid3& world_from_source = of_source.world_from_source;
   const Rigid3& world_from_target = of_target.world_from_target;
+  pair.world_from_source = world_from_source;
+  pair.world_from_target = world_from_target;
   const uint64_t noise_seed = random.Next();
   auto scene = LidarScene::Create(of_source.scene, error);
   if (scene == nullptr) return std::nullopt;

@@ -80,8 +80,11 @@ struct SetPair {
 
   Attitude source_ins;  // As measured.
   Attitude target_ins;
+  Rigid3 world_from_source;  // Each in its own world.
+  Rigid3 world_from_target;
   std::string variant, sensor, apart;
   uint64_t seed = 0;  // Of the source's world.
+  uint64_t target_seed = 0;
 };
 
 // Pair `index` of the set. Returns nullopt and sets *error if the options are

@@ -94,6 +94,27 @@ TEST(MakeDriveTest, StepsAreEvenAndTheCarLooksAhead) {
   }
 }
 
+TEST(PlanDriveTest, KeepsToTheRight) {
+  CityOptions options;
+  options.bend = 0.0;
+  const City city(options);
+  const Eigen::Vector2d corner = city.Plan({1, 0}), end = city.Plan({1, 1});
+  const auto way = PlanDrive(city, {{0, 0}, {1, 0}, {1, 1}}, 1.0);
+  int num_east = 0, num_north = 0;
+  for (const Eigen::Vector2d& uv : way) {
+    if (uv.x() < corner.x() - 15.0) {
+      ++num_east;
+      EXPECT_NEAR(uv.y(), corner.y() - 1.3, 1e-9);
+    } else if (uv.y() > corner.y() + 15.0) {
+      ++num_north;
+      EXPECT_NEAR(uv.x(), corner.x() + 1.3, 1e-9);
+    }
+  }
+  EXPECT_GT(num_east, 40);
+  EXPECT_GT(num_north, 40);
+  EXPECT_NEAR(way.back().y(), end.y(), 1.1);
+}
+
 TEST(MakeDriveTest, HillsAreInTheTiltOfTheCar) {
   DriveOptions options = Named("02");
   options.frame_spacing = 5.0;
@@ -269,7 +290,7 @@ TEST(SweepTest, PointsStayInTheFrameOfTheirMoment) {
 TEST(LidarSceneTest, OthersHideWhatIsBehindThem) {
   Scene far, near;
   far.AddQuad({20, -9, -9}, {20, 9, -9}, {20, 9, 9}, {20, -9, 9}, 0.8f);
-  near.AddQuad({8, 0, -9}, {8, 9, -9}, {8, 9, 9}, {8, 0, 9}, 0.8f);
+  near.AddQuad({8, 0, -9}, {8, 9, -9}, {8, 9, 9}, {8, 0, 9}, 0.1f);
   std::string error;
   const auto wall = LidarScene::Create(far, &error);
   const auto others = LidarScene::Create(near, &error);
@@ -281,6 +302,7 @@ TEST(LidarSceneTest, OthersHideWhatIsBehindThem) {
   for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
     const bool is_left = cloud.points(1, i) > 0.0;
     EXPECT_NEAR(cloud.points(0, i), is_left ? 8.0 : 20.0, 1e-3);
+    EXPECT_EQ(cloud.intensity[i] < 0.2f, is_left);
     (is_left ? num_near : num_far) += 1;
   }
   EXPECT_GT(num_near, 500);
