@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/drives.h"
+#include "experiments/pair_files.h"
 #include "experiments/pair_sets.h"
 #include "experiments/program.h"
 #include "experiments/progress_line.h"

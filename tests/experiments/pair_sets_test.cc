@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "experiments/lidar.h"
+#include "experiments/pair_files.h"
 #include "features/file.h"
 #include "features/kd_tree.h"
 
