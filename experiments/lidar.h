@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A spinning lidar that stands still while it turns once.
+// A spinning lidar that turns once, standing still or moving evenly.
 //
 // Beam b and column c look along
 //
@@ -59,6 +59,19 @@ struct ScanId {
   uint64_t frame = 0;
 };
 
+// How the sensor moves while it turns once. Points stay in the frame of the
+// sensor at their own moment, as they are measured: column c of n is seen from
+//
+//   R exp((f - 1/2) turn),  t + (f - 1/2) velocity,   f = (c + phase) / n,  (3)
+//
+// with (R, t) the pose in the middle of the turn.
+struct Sweep {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // In the world [m].
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();      // Of the sensor [rad].
+
+  bool IsStill() const { return velocity.isZero(0.0) && turn.isZero(0.0); }
+};
+
 // A scene made ready for ray casting by Embree.
 class LidarScene {
  public:
@@ -71,11 +84,13 @@ class LidarScene {
 
   // Points in the sensor frame (x forward, y left, z up) with intensities in
   // [0, 1], beam by beam. `options` must be valid; num_threads 0 is all there
-  // are.
+  // are. `others`, if given, is in the same world.
   PointCloud Scan(const Rigid3& world_from_sensor,
                   const LidarOptions& options,
                   const ScanId& id,
-                  int num_threads) const;
+                  int num_threads,
+                  const Sweep& sweep = {},
+                  const LidarScene* others = nullptr) const;
 
  private:
   LidarScene() = default;

@@ -1,33 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Sets of simulated pairs on disk, each pair in a world of its own:
+// Sets of simulated pairs, each pair in a world of its own.
 //
-//   street/000000_source.bin ...       float32 x y z intensity, sensor frame
-//   pairs.csv            set,source,target,tx,ty,tz,qx,qy,qz,qw,distance_m,
-//                        yaw_deg,rollpitch_deg, then what is below
-//   pairs_negative.csv   the same without a pose: scans with nothing in common
-//   rows/                a pair's line; that it is there says its scans are
-//   settings.json        what the sets were asked to be
-//
-// Both lists go on with
-//
-//   world,variant,sensor,seed,apart   what was simulated; apart: other_seed,
-//                                     far_apart or other_floor of a negative
-//   source_rpy_deg,target_rpy_deg     "roll,pitch,yaw" of the sensors as a
-//   noisy
-//                                     INS has them, for the flags of that name
-//   ins_std_deg                       of each of these angles
-//   twin_tx ... twin_qw               of worlds with a symmetry: the other pose
-//                                     by which the scans fit
-//
-// Pair i of a set depends on the set's options and on i alone: not on threads,
-// on the number of pairs, or on what was there before.
+// Pair i of a set depends on the set's options and on i alone.
 
 #ifndef QUATRO_EXPERIMENTS_PAIR_SETS_H_
 #define QUATRO_EXPERIMENTS_PAIR_SETS_H_
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,8 +60,11 @@ struct SetPair {
 
   Attitude source_ins;  // As measured.
   Attitude target_ins;
+  Rigid3 world_from_source;  // Each in its own world.
+  Rigid3 world_from_target;
   std::string variant, sensor, apart;
   uint64_t seed = 0;  // Of the source's world.
+  uint64_t target_seed = 0;
 };
 
 // Pair `index` of the set. Returns nullopt and sets *error if the options are
@@ -94,20 +77,6 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
 // streets, 100 crossings, 100 each of the other kinds of world) and as many
 // without.
 std::vector<PairSetOptions> CalibrationSets(uint64_t seed, double scale);
-
-// Called after each pair, of any set.
-using PairProgress = std::function<void(int num_done, int num_pairs)>;
-
-// Simulates the pairs that the folder lacks, `num_threads` at a time (0: as
-// many as the machine has), and writes the lists when all are there. Returns
-// false and sets *error if options are invalid, if two sets have one name, if
-// the folder holds something else or sets of other options, or if it can't be
-// written. More pairs of the same sets may be asked for later.
-bool WritePairSets(const std::vector<PairSetOptions>& sets,
-                   const std::string& output_dir,
-                   int num_threads,
-                   const PairProgress& progress,
-                   std::string* error);
 
 }  // namespace quatro
 

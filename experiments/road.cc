@@ -123,16 +123,6 @@ double Road::Curve(double s, double d) const {
          std::tan(options_.curve_bank) * t * d;
 }
 
-bool Road::IsInSideStreet(double s, int side, double margin) const {
-  return std::any_of(side_streets_.begin(),
-                     side_streets_.end(),
-                     [&](const SideStreet& street) {
-                       return street.side == side &&
-                              std::abs(s - street.s) <
-                                  street.width / 2.0 + margin;
-                     });
-}
-
 double Road::Sum(const Waves& waves, double s, double d) {
   double sum = 0.0;
   for (const Wave& wave : waves) {
@@ -172,24 +162,6 @@ Vector3d Road::SurfacePoint(double s, double d) const {
   const Vector2d normal(-std::sin(heading), std::cos(heading));
   const Vector2d xy = (1.0 - t) * axis_[i] + t * axis_[i + 1] + d * normal;
   return {xy.x(), xy.y(), Height(s, d)};
-}
-
-Rigid3 Road::WorldFromUpright(double s, double d) const {
-  return {RotationZ(Heading(s)), SurfacePoint(s, d)};
-}
-
-Rigid3 Road::WorldFromGround(double s, double d, double yaw) const {
-  constexpr double kHalfBase = 1.35, kHalfTrack = 0.75;  // Of a car [m].
-  const Vector3d ahead =
-      SurfacePoint(s + kHalfBase, d) - SurfacePoint(s - kHalfBase, d);
-  const Vector3d left =
-      SurfacePoint(s, d + kHalfTrack) - SurfacePoint(s, d - kHalfTrack);
-  const Vector3d x = ahead.normalized();
-  const Vector3d z = ahead.cross(left).normalized();
-  Rigid3 world_from_street;
-  world_from_street.rotation << x, z.cross(x), z;
-  world_from_street.translation = SurfacePoint(s, d);
-  return world_from_street * Rigid3{RotationZ(yaw), Vector3d::Zero()};
 }
 
 Rigid3 Road::WorldFromSensor(double s, double lateral, double yaw) const {

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/street_axis.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -50,13 +51,7 @@ struct RoadOptions {
   bool IsValid(std::string* error) const;
 };
 
-struct SideStreet {
-  double s = 0.0;      // Of its axis [m].
-  double width = 8.0;  // [m]
-  int side = 1;        // +1 leaves to the left, -1 to the right.
-};
-
-class Road {
+class Road : public StreetAxis {
  public:
   static constexpr double kSensorHeight = 1.73;  // Above the ground [m].
   static constexpr double kLane = -1.0;          // d of a car that drives [m].
@@ -66,20 +61,14 @@ class Road {
   explicit Road(const RoadOptions& options);
 
   const RoadOptions& options() const { return options_; }
-  const std::vector<SideStreet>& side_streets() const { return side_streets_; }
+  double length() const override { return options_.length; }
+  double half_width() const override { return options_.half_width; }
+  const std::vector<SideStreet>& side_streets() const override {
+    return side_streets_;
+  }
 
-  // Within `margin` [m] of a side street's edges.
-  bool IsInSideStreet(double s, int side, double margin) const;
-
-  double Heading(double s) const;                          // [rad]
-  Eigen::Vector3d SurfacePoint(double s, double d) const;  // Equation (1).
-
-  // Origin on the ground, x along the street, z against gravity.
-  Rigid3 WorldFromUpright(double s, double d) const;
-
-  // Origin on the ground, z its normal over the footprint of a car, x along
-  // the street but for a turn by `yaw` [rad].
-  Rigid3 WorldFromGround(double s, double d, double yaw) const;
+  double Heading(double s) const override;
+  Eigen::Vector3d SurfacePoint(double s, double d) const override;  // (1)
 
   // Of a car that drives, `lateral` [m] to the left of its lane: origin in the
   // sensor, axes as WorldFromGround but for the springs.

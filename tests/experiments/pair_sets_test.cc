@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/lidar.h"
+#include "experiments/pair_files.h"
 #include "features/file.h"
 #include "features/kd_tree.h"
 
@@ -123,8 +125,20 @@ TEST(SimulateSetPairTest, PairsWithoutOverlapAreOfDifferentPlaces) {
       EXPECT_FALSE(pair.true_target_from_source.has_value());
       EXPECT_FALSE(pair.twin_target_from_source.has_value());
       EXPECT_GT(pair.source.points.cols(), 10000) << name;
-      EXPECT_NE(pair.apart, "");
       apart.push_back(pair.apart);
+      if (pair.apart == "far_apart") {
+        // Out of each other's range and a range more.
+        EXPECT_GT((pair.world_from_source.translation -
+                   pair.world_from_target.translation)
+                      .norm(),
+                  2.0 * LidarOptions().max_range)
+            << name;
+        EXPECT_EQ(pair.seed, pair.target_seed);
+      } else if (pair.apart == "other_seed") {
+        EXPECT_NE(pair.seed, pair.target_seed);
+      } else {
+        EXPECT_EQ(pair.apart, "other_floor");
+      }
     }
   }
   EXPECT_THAT(apart, ::testing::Contains("other_seed"));
@@ -132,11 +146,13 @@ TEST(SimulateSetPairTest, PairsWithoutOverlapAreOfDifferentPlaces) {
 }
 
 TEST(SimulateSetPairTest, EachPairAndEachScanHasItsOwnNoise) {
-  PairSetOptions options = SetOf(WorldKind::kCorridor);
+  PairSetOptions options = SetOf(WorldKind::kHall);
   options.min_distance = options.max_distance = 0.0;
   options.max_yaw = 0.0;
   options.tilt_sigma = 0.0;
   const SetPair pair = Simulate(options, 0);
+  ASSERT_EQ(pair.world_from_source.ToMatrix(),
+            pair.world_from_target.ToMatrix());
   EXPECT_NE(pair.source.points.cols(), pair.target.points.cols());
   EXPECT_NE(Simulate(options, 1).seed, pair.seed);
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "experiments/lidar.h"
+#include "experiments/road.h"
 #include "experiments/sensors.h"
 
 namespace quatro {
@@ -79,6 +80,27 @@ TEST(MakeWorldTest, PlacesAreAsFarApartAndTurnedAsAsked) {
       EXPECT_NEAR(turn, 1.0, 12.0 * kDegree) << name << " " << seed;
     }
   }
+}
+
+// The grade changes evenly from one end of the curve to the other.
+TEST(RoadTest, CurveIsAParabola) {
+  RoadOptions options;
+  options.undulation = 0.0;
+  options.slope = -0.1;
+  options.curve_begin = 100.0;
+  options.curve_end = 120.0;
+  options.curve_climb = 0.2;
+  const Road road(options);
+  const auto grade = [&](double s) {
+    return (road.SurfacePoint(s + 0.1, 0.0) - road.SurfacePoint(s - 0.1, 0.0))
+               .z() /
+           0.2;
+  };
+  EXPECT_NEAR(grade(80.0), std::tan(-0.1), 1e-6);
+  EXPECT_NEAR(grade(105.0), 0.5 * std::tan(-0.1), 1e-6);
+  EXPECT_NEAR(grade(110.0), 0.0, 1e-6);
+  EXPECT_NEAR(grade(115.0), 0.5 * std::tan(0.1), 1e-6);
+  EXPECT_NEAR(grade(140.0), std::tan(0.1), 1e-6);
 }
 
 TEST(MakeWorldTest, HillsAreAsSteepAsAsked) {
