@@ -3,6 +3,7 @@
 
 #include "experiments/odometry/odometry.h"
 
+#include <Eigen/Geometry>
 #include <string>
 
 #include "features/stopwatch.h"
@@ -30,6 +31,14 @@ std::string WhyUnusable(const PointCloud& scan) {
   return "";
 }
 
+// The nearest rotation to one that products have worn. Left alone the error
+// grows without bound: the inverse of a pose is its transpose, so that what is
+// off one is off the guess for the next twice.
+Rigid3 Normalized(const Rigid3& pose) {
+  return {Eigen::Quaterniond(pose.rotation).normalized().toRotationMatrix(),
+          pose.translation};
+}
+
 }  // namespace
 
 const char* StatusName(OdometryStatus status) {
@@ -48,7 +57,7 @@ OdometryStep Odometry::AddScan(const PointCloud& scan) {
   Stopwatch stopwatch;
   OdometryStep step;
   // The guess, which holds if nothing better is found.
-  step.world_from_scan = world_from_last_ * last_from_next_;
+  step.world_from_scan = Normalized(world_from_last_ * last_from_next_);
   step.message = WhyUnusable(scan);
   if (step.message.empty()) {
     const TrackResult result =
@@ -57,8 +66,9 @@ OdometryStep Odometry::AddScan(const PointCloud& scan) {
     if (result.world_from_scan) {
       step.status =
           has_world_ ? OdometryStatus::kTracked : OdometryStatus::kFirst;
-      step.world_from_scan = *result.world_from_scan;
-      last_from_next_ = Inverse(world_from_last_) * step.world_from_scan;
+      step.world_from_scan = Normalized(*result.world_from_scan);
+      last_from_next_ =
+          Normalized(Inverse(world_from_last_) * step.world_from_scan);
       has_world_ = true;
     }
   }

@@ -31,11 +31,23 @@ double SurfelRadius(const Eigen::Vector3d& vertex,
   return std::sqrt(2.0) * range * pixel / cosine;
 }
 
+// Through the middle of each pixel.
+Points RaysOf(const SphericalImage& image) {
+  Points rays(3, image.size());
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      rays.col(Eigen::Index{v} * image.width + u) = image.Ray(u, v);
+    }
+  }
+  return rays;
+}
+
 // Draws the disk where it is nearer than what is there.
 void Draw(std::int32_t index,
           const Eigen::Vector3d& position,
           const Eigen::Vector3d& normal,
           double radius,
+          const Points& rays,
           RenderedMap* rendered) {
   const SphericalImage& image = rendered->view.image;
   const Eigen::Index middle = image.Project(position);
@@ -56,7 +68,7 @@ void Draw(std::int32_t index,
     for (int i = -across; i <= across; ++i) {
       const int column = (u + i + image.width) % image.width;
       const Eigen::Index pixel = Eigen::Index{row} * image.width + column;
-      const Eigen::Vector3d ray = image.Ray(column, row);
+      const Eigen::Vector3d ray = rays.col(pixel);
       const double facing = normal.dot(ray);
       Eigen::Vector3d vertex =
           facing < 0.0 ? Eigen::Vector3d(normal.dot(position) / facing * ray)
@@ -111,6 +123,7 @@ RenderedMap SurfelMap::Render(const SphericalImage& image,
   RenderedMap rendered{
       {image, Points::Zero(3, n), Points::Zero(3, n)},
       std::vector<std::int32_t>(static_cast<std::size_t>(n), -1)};
+  const Points rays = RaysOf(image);
   const Rigid3 sensor_from_map = Inverse(map_from_sensor);
   for (std::size_t i = 0; i < surfels_.size(); ++i) {
     const Surfel& surfel = surfels_[i];
@@ -122,6 +135,7 @@ RenderedMap SurfelMap::Render(const SphericalImage& image,
          position,
          normal,
          surfel.radius,
+         rays,
          &rendered);
   }
   return rendered;
@@ -162,12 +176,11 @@ void SurfelMap::Update(const VertexMap& scan, const Rigid3& map_from_sensor) {
       }
       surfel.log_odds -= LogOdds(options_.stable);
     }
-    added.push_back(
-        {vertex, normal, radius, LogOdds(options_.stable), now, now});
+    added.push_back({vertex, normal, radius, 0.0, now, now});
   }
   surfels_.insert(surfels_.end(), added.begin(), added.end());
   std::erase_if(surfels_, [&](const Surfel& surfel) {
-    return (surfel.log_odds < 0.0 &&
+    return (surfel.log_odds <= 0.0 &&
             now - surfel.created >= options_.confirm_within) ||
            now - surfel.seen > options_.forget_after ||
            (surfel.position - map_from_sensor.translation).squaredNorm() >

@@ -11,9 +11,9 @@
 //   odds(p exp(-a^2 / sigma_a^2) exp(-d^2 / sigma_d^2)),
 //   odds(x) = log(x / (1 - x));                                            (2)
 //
-// one that does not takes odds(p) away and starts a surfel of its own. Surfels
-// below zero are forgotten once they have had time to be confirmed, and so are
-// those not seen for long or far away.
+// one that does not takes odds(p) away and starts a surfel of its own, at zero.
+// Surfels that are not above zero are forgotten once they have had time to be
+// confirmed, and so are those not seen for long or far away.
 //
 // Source: SuMa (see features/vertex_map.h), Section III.D. Unlike there, disks
 // are drawn by the CPU, pixel by pixel, and there are no submaps, as there is
