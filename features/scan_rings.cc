@@ -18,8 +18,10 @@ constexpr double kDegree = M_PI / 180.0;
 constexpr int kMinNumRings = 4;
 constexpr int kMaxNumRings = 256;
 
-// Order: the azimuth may fall back by this before it counts as a new turn, and
-// this share of the steps must go forward by no more.
+// Order: the azimuth may fall back by this before it counts as a new turn (the
+// lasers are not in one place: what is a metre away is seen 8 deg off), and
+// this share of the steps must go forward by so much at most.
+constexpr double kMaxBack = 15.0 * kDegree;
 constexpr double kMaxStep = 5.0 * kDegree;
 constexpr double kMinForwardShare = 0.85;
 
@@ -72,7 +74,7 @@ std::vector<Ring> RingsByOrder(const Directions& directions) {
     const double phase = Phase(directions.azimuth[i], sense);
     const double step = phase - before;
     if (step > 0.0 && step <= kMaxStep) ++num_forward;
-    if (rings.empty() || step < -kMaxStep) rings.emplace_back();
+    if (rings.empty() || step < -kMaxBack) rings.emplace_back();
     rings.back().push_back(static_cast<Eigen::Index>(i));
     before = phase;
   }

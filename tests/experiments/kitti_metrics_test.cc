@@ -78,8 +78,7 @@ TEST(KittiDrift, OfAHeadingThatTurnsIsByHand) {
   const auto truth = Line(151, 1.0);
   auto estimate = truth;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    estimate[i].rotation =
-        RotationZ(0.01 * kDegree * static_cast<double>(i));
+    estimate[i].rotation = RotationZ(0.01 * kDegree * static_cast<double>(i));
   }
   const KittiDrift drift = Drift(truth, estimate);
   EXPECT_NEAR(drift.rotation_deg_per_100m, 1.01, 1e-9);

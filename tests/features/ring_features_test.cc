@@ -65,7 +65,8 @@ double WallBehindPost(double a) { return std::abs(a) < kPost ? 6.0 : Wall(a); }
 
 double Nearest(const RingPoints& points, const Eigen::Vector3d& p) {
   if (points.ring.empty()) return std::numeric_limits<double>::infinity();
-  return std::sqrt((points.points.colwise() - p).colwise().squaredNorm().minCoeff());
+  return std::sqrt(
+      (points.points.colwise() - p).colwise().squaredNorm().minCoeff());
 }
 
 TEST(FindRingFeatures, SharpIsTheCornerOfTwoWallsAndFlatIsNot) {

@@ -45,7 +45,8 @@ std::vector<SurfaceMatch> Matches(int n,
 // in the four numbers of the quaternion.
 template <typename Residual, int kSize>
 void ExpectDerivativesAreThoseOfDifferences(std::uint64_t seed) {
-  const SurfaceMatch match = Matches(1, RandomPose(seed, 1.0, 2.0), false, seed)[0];
+  const SurfaceMatch match =
+      Matches(1, RandomPose(seed, 1.0, 2.0), false, seed)[0];
   typename Residual::CostFunction cost(new Residual{match});
   const Eigen::Quaterniond q(RandomRotation(seed + 5));
   Eigen::Matrix<double, 7, 1> x;
@@ -71,7 +72,8 @@ void ExpectDerivativesAreThoseOfDifferences(std::uint64_t seed) {
     for (int i = 0; i < kSize; ++i) {
       const double derivative =
           j < 4 ? of_turn[i * 4 + j] : of_translation[i * 3 + j - 4];
-      EXPECT_NEAR(derivative, difference[i], 1e-6 * (1.0 + std::abs(derivative)));
+      EXPECT_NEAR(
+          derivative, difference[i], 1e-6 * (1.0 + std::abs(derivative)));
       largest = std::max(largest, std::abs(derivative));
     }
   }
@@ -112,12 +114,12 @@ TEST(AlignToLinesAndPlanes, FindsThePoseFromLinesPlanesOrBoth) {
          {std::pair(lines, planes), {lines, {}}, {{}, planes}}) {
       const auto summary = AlignToLinesAndPlanes(l, p, Rigid3{}, options);
       ASSERT_TRUE(summary.target_from_source) << summary.message;
-      EXPECT_LT(AngleBetween(summary.target_from_source->rotation,
-                             pose.rotation),
-                1e-6);
-      EXPECT_LT((summary.target_from_source->translation - pose.translation)
-                    .norm(),
-                1e-5);
+      EXPECT_LT(
+          AngleBetween(summary.target_from_source->rotation, pose.rotation),
+          1e-6);
+      EXPECT_LT(
+          (summary.target_from_source->translation - pose.translation).norm(),
+          1e-5);
     }
   }
 }
@@ -168,12 +170,12 @@ TEST(AlignToLinesAndPlanes, MovesWithTheTarget) {
     const auto other = AlignToLinesAndPlanes(lines, planes, move, options);
     ASSERT_TRUE(one.target_from_source && other.target_from_source);
     const Rigid3 expected = move * *one.target_from_source;
-    EXPECT_LT(AngleBetween(other.target_from_source->rotation,
-                           expected.rotation),
-              1e-4);
-    EXPECT_LT((other.target_from_source->translation - expected.translation)
-                  .norm(),
-              1e-3);
+    EXPECT_LT(
+        AngleBetween(other.target_from_source->rotation, expected.rotation),
+        1e-4);
+    EXPECT_LT(
+        (other.target_from_source->translation - expected.translation).norm(),
+        1e-3);
     EXPECT_NEAR(other.conditioning, one.conditioning, 0.1 * one.conditioning);
   }
 }
