@@ -29,8 +29,10 @@ Points Sample(const Points& points, double voxel_size) {
 bool AloamOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!features.IsValid(error) || !alignment.IsValid(error)) return false;
-  if (num_rounds < 1) {
-    problem << "num_rounds = " << num_rounds << ", must be >= 1";
+  if (num_rounds < 1 || start_rounds < num_rounds) {
+    problem << "num_rounds = " << num_rounds
+            << ", start_rounds = " << start_rounds
+            << ", must be >= 1 and the second no less";
   } else if (!(max_scan_distance > 0.0 && max_map_distance > 0.0)) {
     problem << "max_scan_distance = " << max_scan_distance
             << ", max_map_distance = " << max_map_distance << ", must be > 0";
@@ -85,10 +87,11 @@ TrackResult Aloam::Start(const PointCloud& scan) {
 }
 
 LinePlaneSummary Aloam::AlignToScan(const RingFeatures& features,
-                                    const Rigid3& world_from_scan) const {
+                                    const Rigid3& world_from_scan,
+                                    int num_rounds) const {
   LinePlaneSummary summary;
   Rigid3 last_from_scan = Inverse(world_from_last_) * world_from_scan;
-  for (int round = 0; round < options_.num_rounds; ++round) {
+  for (int round = 0; round < num_rounds; ++round) {
     const SurfaceMatches matches = MatchToScan(features,
                                                *last_,
                                                last_from_scan,
@@ -137,7 +140,9 @@ TrackResult Aloam::Track(const PointCloud& scan,
   if (!features) return result;
 
   const LinePlaneSummary to_scan =
-      AlignToScan(*features, world_from_scan_guess);
+      AlignToScan(*features,
+                  world_from_scan_guess,
+                  has_velocity_ ? options_.num_rounds : options_.start_rounds);
   const LinePlaneSummary to_map =
       AlignToMap(Sample(features->less_sharp.points, options_.edge_voxel),
                  Sample(features->less_flat.points, options_.plane_voxel),
@@ -147,7 +152,10 @@ TrackResult Aloam::Track(const PointCloud& scan,
   result.world_from_scan = to_map.target_from_source
                                ? to_map.target_from_source
                                : to_scan.target_from_source;
-  if (result.world_from_scan) Learn(*features, *result.world_from_scan);
+  if (result.world_from_scan) {
+    Learn(*features, *result.world_from_scan);
+    has_velocity_ = true;
+  }
   return result;
 }
 

@@ -6,8 +6,9 @@
 //   1. to the scan before it, from the guess of constant velocity,
 //   2. to the map of all before it, from 1,
 //
-// each time with matches found anew num_rounds times. The map keeps one point a
-// voxel of either kind around the sensor.
+// each time with matches found anew num_rounds times; start_rounds times where
+// there is no velocity yet, as the second scan may be metres ahead. The map
+// keeps one point a voxel of either kind around the sensor.
 //
 // Unlike A-LOAM, step 2 is done for every scan and its pose feeds the next
 // guess; the map is one grid around the sensor in place of cubes of 50 m;
@@ -37,6 +38,7 @@ struct AloamOptions {
   RingFeatureOptions features;
   LinePlaneOptions alignment;
   int num_rounds = 2;
+  int start_rounds = 20;
 
   double max_scan_distance = 5.0;  // Of matches to the scan before [m].
   double max_map_distance = 1.0;   // And of the fifth neighbor in the map [m].
@@ -64,7 +66,8 @@ class Aloam : public Odometry {
   std::optional<RingFeatures> FindFeatures(const PointCloud& scan,
                                            std::string* message) const;
   LinePlaneSummary AlignToScan(const RingFeatures& features,
-                               const Rigid3& world_from_scan) const;
+                               const Rigid3& world_from_scan,
+                               int num_rounds) const;
   LinePlaneSummary AlignToMap(const Points& edges,
                               const Points& planes,
                               const Rigid3& world_from_scan) const;
@@ -73,6 +76,7 @@ class Aloam : public Odometry {
   AloamOptions options_;
   std::optional<ScanModel> last_;
   Rigid3 world_from_last_;
+  bool has_velocity_ = false;
   VoxelMap edge_map_, plane_map_;
 };
 

@@ -13,6 +13,9 @@
 namespace quatro {
 namespace {
 
+// Disks that are no farther apart than this along a ray are of one surface [m].
+constexpr double kSameSurface = 0.1;
+
 // Pixels from the middle of a disk to the edge that is drawn, at most.
 constexpr int kMaxReach = 4;
 
@@ -42,12 +45,24 @@ Points RaysOf(const SphericalImage& image) {
   return rays;
 }
 
-// Draws the disk where it is nearer than what is there.
+// Whether `vertex`, `offset` from the middle of its disk, is to replace what is
+// in the pixel: of one surface the disk around it, else the nearer.
+bool IsBefore(const Eigen::Vector3d& vertex,
+              double offset,
+              const Eigen::Vector3d& there,
+              double offset_there) {
+  const double behind = vertex.norm() - there.norm();
+  if (std::abs(behind) <= kSameSurface) return offset < offset_there;
+  return behind < 0.0;
+}
+
+// `offsets` by pixel: of what is drawn, from the middle of its disk [m].
 void Draw(std::int32_t index,
           const Eigen::Vector3d& position,
           const Eigen::Vector3d& normal,
           double radius,
           const Points& rays,
+          std::vector<double>* offsets,
           RenderedMap* rendered) {
   const SphericalImage& image = rendered->view.image;
   const Eigen::Index middle = image.Project(position);
@@ -77,11 +92,16 @@ void Draw(std::int32_t index,
         if (pixel != middle) continue;
         vertex = position;  // Never less than a pixel.
       }
+      const double offset = (vertex - position).norm();
+      double& offset_there = (*offsets)[static_cast<std::size_t>(pixel)];
       if (rendered->view.HasVertex(pixel) &&
-          rendered->view.vertices.col(pixel).squaredNorm() <=
-              vertex.squaredNorm()) {
+          !IsBefore(vertex,
+                    offset,
+                    rendered->view.vertices.col(pixel),
+                    offset_there)) {
         continue;
       }
+      offset_there = offset;
       rendered->view.vertices.col(pixel) = vertex;
       rendered->view.normals.col(pixel) = normal;
       rendered->surfels[static_cast<std::size_t>(pixel)] = index;
@@ -124,6 +144,7 @@ RenderedMap SurfelMap::Render(const SphericalImage& image,
       {image, Points::Zero(3, n), Points::Zero(3, n)},
       std::vector<std::int32_t>(static_cast<std::size_t>(n), -1)};
   const Points rays = RaysOf(image);
+  std::vector<double> offsets(static_cast<std::size_t>(n), 0.0);
   const Rigid3 sensor_from_map = Inverse(map_from_sensor);
   for (std::size_t i = 0; i < surfels_.size(); ++i) {
     const Surfel& surfel = surfels_[i];
@@ -136,6 +157,7 @@ RenderedMap SurfelMap::Render(const SphericalImage& image,
          normal,
          surfel.radius,
          rays,
+         &offsets,
          &rendered);
   }
   return rendered;
