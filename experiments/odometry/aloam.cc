@@ -161,7 +161,7 @@ TrackResult Aloam::Track(const PointCloud& scan,
 
 void Aloam::Learn(const RingFeatures& features, const Rigid3& world_from_scan) {
   last_.emplace(features);
-  world_from_last_ = world_from_scan;
+  world_from_last_ = Normalized(world_from_scan);
   const auto add = [&](const Points& points, double voxel, VoxelMap* map) {
     map->Insert(world_from_scan.Apply(Sample(points, voxel)));
     map->Crop(world_from_scan.translation, options_.map_radius);

@@ -34,7 +34,11 @@ TrackResult FrameToFrame::Track(const PointCloud& scan,
   const FrameAlignment alignment =
       aligner_(scan, last_, Inverse(world_from_last_) * world_from_scan_guess);
   if (!alignment.target_from_source) return {std::nullopt, alignment.message};
-  world_from_last_ = world_from_last_ * *alignment.target_from_source;
+  if (!alignment.target_from_source->ToMatrix().allFinite()) {
+    return {std::nullopt, "the pose is not finite"};
+  }
+  world_from_last_ =
+      Normalized(world_from_last_ * *alignment.target_from_source);
   last_ = scan;
   return {world_from_last_, alignment.message};
 }

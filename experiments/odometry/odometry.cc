@@ -31,15 +31,12 @@ std::string WhyUnusable(const PointCloud& scan) {
   return "";
 }
 
-// The nearest rotation to one that products have worn. Left alone the error
-// grows without bound: the inverse of a pose is its transpose, so that what is
-// off one is off the guess for the next twice.
+}  // namespace
+
 Rigid3 Normalized(const Rigid3& pose) {
   return {Eigen::Quaterniond(pose.rotation).normalized().toRotationMatrix(),
           pose.translation};
 }
-
-}  // namespace
 
 const char* StatusName(OdometryStatus status) {
   switch (status) {
@@ -63,7 +60,10 @@ OdometryStep Odometry::AddScan(const PointCloud& scan) {
     const TrackResult result =
         has_world_ ? Track(scan, step.world_from_scan) : Start(scan);
     step.message = result.message;
-    if (result.world_from_scan) {
+    if (result.world_from_scan &&
+        !result.world_from_scan->ToMatrix().allFinite()) {
+      step.message = "the pose is not finite";
+    } else if (result.world_from_scan) {
       step.status =
           has_world_ ? OdometryStatus::kTracked : OdometryStatus::kFirst;
       step.world_from_scan = Normalized(*result.world_from_scan);

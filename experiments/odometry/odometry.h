@@ -43,6 +43,11 @@ struct TrackResult {
   std::string message = "nothing was tried";
 };
 
+// With the rotation nearest to one that products have worn. Left alone the
+// error grows without bound where a guess comes back as an answer: the inverse
+// of a pose is its transpose, so that each guess doubles what is off.
+Rigid3 Normalized(const Rigid3& pose);
+
 class Odometry {
  public:
   virtual ~Odometry() = default;

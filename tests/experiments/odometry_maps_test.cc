@@ -213,6 +213,17 @@ TEST(SurfelMapTest, WhatIsSeenOnceIsForgotten) {
   }
 }
 
+TEST(SurfelMapTest, WhatIsNeverSeenAgainIsForgotten) {
+  SurfelMapOptions options;
+  SurfelMap map(options);
+  map.Update(SeeWall(8.0), {});
+  const VertexMap nothing = MakeVertexMap(Points(3, 0), Image(), 0.5, 1);
+  for (int i = 1; i < options.confirm_within; ++i) map.Update(nothing, {});
+  EXPECT_FALSE(map.surfels().empty());
+  map.Update(nothing, {});
+  EXPECT_TRUE(map.surfels().empty());
+}
+
 TEST(SurfelMapTest, WhatIsFarBehindIsForgotten) {
   SurfelMapOptions options;
   options.radius = 30.0;

@@ -212,6 +212,24 @@ TEST(Aloam, AScanWithoutRingsIsLost) {
   EXPECT_THAT(step.message, HasSubstr("rings"));
 }
 
+// Without a map that matches there is the scan before alone, which drifts more.
+TEST(Aloam, TheMapHoldsTheDrift) {
+  const Drive& drive = TheDrive();
+  double error[2] = {};
+  for (const bool has_map : {false, true}) {
+    AloamOptions options;
+    if (!has_map) options.max_map_distance = 1e-6;
+    Aloam odometry(options);
+    for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+      const OdometryStep step = odometry.AddScan(drive.scans[i]);
+      EXPECT_NE(step.status, OdometryStatus::kLost) << step.message;
+      error[has_map] +=
+          TranslationError(step.world_from_scan, drive.world_from_scan[i]);
+    }
+  }
+  EXPECT_LT(error[1], 0.7 * error[0]);
+}
+
 // Steps of a metre with a turn, told exactly.
 FrameAligner ExactAligner(const Rigid3& last_from_next) {
   return [last_from_next](const PointCloud&, const PointCloud&, const Rigid3&) {
@@ -237,6 +255,45 @@ TEST(FrameToFrameTest, ALongRingClosesAndStaysARotation) {
   const Eigen::Matrix3d& rotation = last.world_from_scan.rotation;
   EXPECT_LT(
       (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm(),
+      1e-12);
+}
+
+// The same where the answer is made from the guess, as local methods do.
+TEST(FrameToFrameTest, ALongRingOfGuessesClosesAndStaysARotation) {
+  const int n = 720;
+  const Rigid3 step{RandomRotation(1) * RotationZ(2.0 * M_PI / n) *
+                        RandomRotation(1).transpose(),
+                    Eigen::Vector3d(0.0, 0.0, 0.0)};
+  int num_calls = 0;
+  FrameToFrame odometry(
+      [&](const PointCloud&, const PointCloud&, const Rigid3& guess) {
+        return FrameAlignment{num_calls++ == 0 ? step : guess, "guessed"};
+      });
+  OdometryStep last;
+  for (int i = 0; i <= n; ++i) last = odometry.AddScan(SomeCloud());
+  const Eigen::Matrix3d& rotation = last.world_from_scan.rotation;
+  EXPECT_LT((rotation - Eigen::Matrix3d::Identity()).norm(), 1e-8);
+  EXPECT_LT(
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm(),
+      1e-12);
+}
+
+TEST(FrameToFrameTest, APoseThatIsNotFiniteIsLost) {
+  Rigid3 bad;
+  bad.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  const Rigid3 good{RotationZ(0.1), Eigen::Vector3d(1.0, 2.0, 3.0)};
+  int num_calls = 0;
+  FrameToFrame odometry(
+      [&](const PointCloud&, const PointCloud&, const Rigid3&) {
+        return FrameAlignment{num_calls++ == 0 ? bad : good, "told"};
+      });
+  odometry.AddScan(SomeCloud());
+  const OdometryStep step = odometry.AddScan(SomeCloud());
+  EXPECT_EQ(step.status, OdometryStatus::kLost);
+  EXPECT_EQ(step.message, "the pose is not finite");
+  EXPECT_TRUE(step.world_from_scan.ToMatrix().allFinite());
+  EXPECT_LT(
+      TranslationError(odometry.AddScan(SomeCloud()).world_from_scan, good),
       1e-12);
 }
 

@@ -133,20 +133,21 @@ TEST(FindRingFeatures, TheRimOfTheShadowIsNotAnEdgeAndThePostIs) {
   }
 }
 
-// A wall along the line of sight, y = 0.6 + x / 50: from 8 m on its points are
-// more than 0.014 of the range apart.
+// A wall along the line of sight, y = 0.6: its points are 0.018 to 0.041 of the
+// range apart, and less than a rim.
 TEST(FindRingFeatures, AWallAlongTheBeamIsNotChosen) {
   const Points points = Ring([](double a) {
-    const double r = 0.6 / (std::sin(a) - std::cos(a) / 50.0);
-    return a > 2.0 * kDegree && r < 30.0 && r > 3.0
-               ? r
-               : std::numeric_limits<double>::infinity();
+    const double r = 0.6 / std::sin(a);
+    return r < 7.0 && r > 3.2 ? r : std::numeric_limits<double>::infinity();
   });
-  ASSERT_GT(points.cols(), 30);
-  const RingFeatures features = FindRingFeatures(points, OneRing(points), {});
-  for (const RingPoints* kind : {&features.sharp, &features.flat}) {
-    for (const auto& p : kind->points.colwise()) EXPECT_LT(p.norm(), 8.0);
-  }
+  ASSERT_GT(points.cols(), 25);
+  RingFeatures features = FindRingFeatures(points, OneRing(points), {});
+  EXPECT_EQ(features.less_sharp.points.cols(), 0);
+  EXPECT_EQ(features.flat.points.cols(), 0);
+  RingFeatureOptions options;
+  options.max_relative_step = 0.1;
+  features = FindRingFeatures(points, OneRing(points), options);
+  EXPECT_GT(features.flat.points.cols() + features.sharp.points.cols(), 0);
 }
 
 TEST(FindRingFeatures, NearPointsAreTheCarsOwn) {

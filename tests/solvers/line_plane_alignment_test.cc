@@ -180,14 +180,17 @@ TEST(AlignToLinesAndPlanes, MovesWithTheTarget) {
   }
 }
 
-// Planes whose normals are multiples of the axes in `axes`.
+// Planes whose normals are the axes in `axes`, but for a thousandth.
 std::vector<SurfaceMatch> AxisPlanes(const std::vector<int>& axes) {
   const Points sources = RandomPoints(300, 10.0, 3);
   std::vector<SurfaceMatch> planes;
   for (Eigen::Index i = 0; i < sources.cols(); ++i) {
     const int axis = axes[static_cast<std::size_t>(i) % axes.size()];
     const Eigen::Vector3d p = sources.col(i);
-    planes.push_back({p, p, Eigen::Vector3d::Unit(axis)});
+    const Eigen::Vector3d askew =
+        1e-3 * RandomDirection(static_cast<std::uint64_t>(i));
+    planes.push_back(
+        {p, p, (Eigen::Vector3d::Unit(axis) + askew).normalized()});
   }
   return planes;
 }
