@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/odometry/frame_to_frame.h"
+
+#include <utility>
+
+#include "robust/verdict.h"
+
+namespace quatro {
+
+FrameAligner MakeRegistrationAligner(const RegistrationOptions& options) {
+  return [options](const PointCloud& source,
+                   const PointCloud& target,
+                   const Rigid3&) -> FrameAlignment {
+    const RegistrationSummary summary = Register(source, target, options);
+    if (!summary.error.empty()) return {std::nullopt, summary.error};
+    return {summary.target_from_source(),
+            std::string(StatusName(summary.verdict.status)) + ": " +
+                summary.verdict.reason};
+  };
+}
+
+FrameToFrame::FrameToFrame(FrameAligner aligner)
+    : aligner_(std::move(aligner)) {}
+
+TrackResult FrameToFrame::Start(const PointCloud& scan) {
+  last_ = scan;
+  return {Rigid3{}, "the first scan"};
+}
+
+TrackResult FrameToFrame::Track(const PointCloud& scan,
+                                const Rigid3& world_from_scan_guess) {
+  const FrameAlignment alignment =
+      aligner_(scan, last_, Inverse(world_from_last_) * world_from_scan_guess);
+  if (!alignment.target_from_source) return {std::nullopt, alignment.message};
+  if (!alignment.target_from_source->ToMatrix().allFinite()) {
+    return {std::nullopt, "the pose is not finite"};
+  }
+  world_from_last_ =
+      Normalized(world_from_last_ * *alignment.target_from_source);
+  last_ = scan;
+  return {world_from_last_, alignment.message};
+}
+
+}  // namespace quatro

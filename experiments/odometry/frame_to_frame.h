@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Odometry from any registration of two clouds: each scan onto the last that
+// was tracked,
+//
+//   world_from_scan = world_from_last last_from_scan.                      (1)
+
+#ifndef QUATRO_EXPERIMENTS_ODOMETRY_FRAME_TO_FRAME_H_
+#define QUATRO_EXPERIMENTS_ODOMETRY_FRAME_TO_FRAME_H_
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "experiments/odometry/odometry.h"
+#include "features/point_cloud.h"
+#include "robust/registration.h"
+#include "solvers/rigid3.h"
+
+namespace quatro {
+
+struct FrameAlignment {
+  std::optional<Rigid3> target_from_source;
+  std::string message;
+};
+
+// A global method does not look at the guess.
+using FrameAligner =
+    std::function<FrameAlignment(const PointCloud& source,
+                                 const PointCloud& target,
+                                 const Rigid3& target_from_source_guess)>;
+
+// By Register(). Its pose counts whether or not it is vouched for, as in the
+// paper's table; the message holds the verdict.
+FrameAligner MakeRegistrationAligner(const RegistrationOptions& options);
+
+class FrameToFrame : public Odometry {
+ public:
+  explicit FrameToFrame(FrameAligner aligner);
+
+ private:
+  TrackResult Start(const PointCloud& scan) override;
+  TrackResult Track(const PointCloud& scan,
+                    const Rigid3& world_from_scan_guess) override;
+
+  FrameAligner aligner_;
+  PointCloud last_;
+  Rigid3 world_from_last_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_ODOMETRY_FRAME_TO_FRAME_H_

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Where results come from for the rows of experiments/odometry/table_two.h: a
+// run of ours, or files that other programs left.
+
+#ifndef QUATRO_EXPERIMENTS_ODOMETRY_OUTSIDE_DRIFT_H_
+#define QUATRO_EXPERIMENTS_ODOMETRY_OUTSIDE_DRIFT_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/metrics/kitti_metrics.h"
+#include "experiments/odometry/sequence.h"
+#include "experiments/odometry/table_two.h"
+
+namespace quatro {
+
+struct OutsideResult {
+  std::string method;
+  std::string path;  // KITTI poses.
+};
+
+// "NAME=PATH,NAME=PATH"; empty text is no result. Nullopt with *error set if a
+// part has no name or no path.
+std::optional<std::vector<OutsideResult>> ParseOutside(const std::string& text,
+                                                       std::string* error);
+
+DriftEntry MeasuredEntry(const std::string& method,
+                         int interval,
+                         const OdometryRun& run,
+                         const KittiDrift& drift);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_ODOMETRY_OUTSIDE_DRIFT_H_

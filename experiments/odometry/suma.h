@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Odometry like SuMa's, without its closing of loops: the scan as an image
+// (features/vertex_map.h) onto what the map of surfels (surfel_map.h) would
+// look like from the guess, by solvers/projective_icp.h; then the scan is taken
+// into the map.
+//
+// The image's rows span the elevations of the first scan: no beam need be
+// known.
+//
+// Source: Behley and Stachniss, "Efficient Surfel-Based SLAM using 3D Laser
+// Range Data in Urban Environments", RSS 2018.
+
+#ifndef QUATRO_EXPERIMENTS_ODOMETRY_SUMA_H_
+#define QUATRO_EXPERIMENTS_ODOMETRY_SUMA_H_
+
+#include <string>
+
+#include "experiments/odometry/odometry.h"
+#include "experiments/odometry/surfel_map.h"
+#include "features/vertex_map.h"
+#include "solvers/projective_icp.h"
+
+namespace quatro {
+
+struct SumaOptions {
+  int width = 720;  // Of the image [pixels].
+  int height = 64;
+  double min_range = 3.0;  // Nearer points are the car's own [m].
+  ProjectiveIcpOptions icp;
+  SurfelMapOptions map;
+
+  int num_threads = 1;  // 0: all cores. Never changes the answer.
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+class Suma : public Odometry {
+ public:
+  // `options` must be valid.
+  explicit Suma(const SumaOptions& options);
+
+ private:
+  TrackResult Start(const PointCloud& scan) override;
+  TrackResult Track(const PointCloud& scan,
+                    const Rigid3& world_from_scan_guess) override;
+
+  SumaOptions options_;
+  SphericalImage image_;
+  SurfelMap map_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_ODOMETRY_SUMA_H_

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/odometry/kitti_poses.h"
+#include "tests/support/run_program.h"
+
+namespace quatro {
+namespace {
+
+using ::testing::HasSubstr;
+
+class OdometryProgramTest : public ProgramTest {
+ protected:
+  // Six scans, a metre apart.
+  std::string SimulateDrive() const {
+    const ProgramRun run = RunProgram(
+        "quatro_simulate", {"--output=" + PathOf("drive"), "--num_frames=6"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return PathOf("drive");
+  }
+  void Remove(const std::string& name) const {
+    EXPECT_TRUE(std::filesystem::remove(PathOf(name)));
+  }
+};
+
+TEST_F(OdometryProgramTest, WritesPosesOfCam0NearTheTrueOnes) {
+  const std::string drive = SimulateDrive();
+  const ProgramRun run = RunProgram("quatro_odometry",
+                                    {"--input=" + drive,
+                                     "--method=suma",
+                                     "--output=" + PathOf("out.txt"),
+                                     "--table=" + PathOf("table.csv"),
+                                     "--outside=theirs=" + drive + "/poses.txt",
+                                     "--quoted"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("6 of 6 scans, 0 s left"));
+  EXPECT_THAT(run.out, HasSubstr("6 scans, 0 lost (0 unreadable)"));
+  EXPECT_THAT(run.out, HasSubstr("no segment of 100 m"));
+  EXPECT_THAT(run.out, HasSubstr("StickyPillars"));
+  std::string error;
+  const auto poses = ReadKittiPoses(PathOf("out.txt"), &error);
+  ASSERT_TRUE(poses) << error;
+  const auto truth = ReadKittiPoses(drive + "/poses.txt", &error);
+  ASSERT_EQ(poses->size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_LT(((*poses)[i].translation - (*truth)[i].translation).norm(), 0.1)
+        << i;
+  }
+  EXPECT_GT((*poses)[5].translation.z(), 4.5);
+  const std::string table = Read("table.csv");
+  EXPECT_THAT(table, HasSubstr("suma,measured,-,-,0,"));
+  EXPECT_THAT(table, HasSubstr("theirs,file,-,-,-,-"));
+  EXPECT_THAT(table, HasSubstr("A-LOAM,quoted,0.70,0.27"));
+}
+
+TEST_F(OdometryProgramTest, AMissingAndABadFileAreToldAndCounted) {
+  const std::string drive = SimulateDrive();
+  Remove("drive/velodyne/000002.bin");
+  Write("drive/velodyne/000004.bin", "twelve bytes");
+  const ProgramRun run = RunProgram(
+      "quatro_odometry",
+      {"--input=" + drive, "--method=suma", "--output=" + PathOf("out.txt")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("6 scans, 2 lost (2 unreadable)"));
+  EXPECT_THAT(run.err,
+              HasSubstr("frame 2 lost: there is no file of frame 2\n"));
+  EXPECT_THAT(run.err, HasSubstr("frame 4 lost: "));
+  EXPECT_THAT(run.err, HasSubstr("000004.bin: size 12 bytes"));
+  std::string error;
+  const auto poses = ReadKittiPoses(PathOf("out.txt"), &error);
+  const auto truth = ReadKittiPoses(drive + "/poses.txt", &error);
+  ASSERT_TRUE(poses && truth);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_LT(((*poses)[i].translation - (*truth)[i].translation).norm(), 0.15)
+        << i;
+  }
+}
+
+TEST_F(OdometryProgramTest, IntervalAndFramesPickTheScans) {
+  const std::string drive = SimulateDrive();
+  const ProgramRun run = RunProgram("quatro_odometry",
+                                    {"--input=" + drive,
+                                     "--method=aloam",
+                                     "--interval=2",
+                                     "--first_frame=1",
+                                     "--last_frame=4",
+                                     "--output=" + PathOf("out.txt")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("2 scans, 0 lost"));
+  EXPECT_THAT(run.out, HasSubstr("path 2.0 m"));
+  std::string error;
+  const auto poses = ReadKittiPoses(PathOf("out.txt"), &error);
+  ASSERT_TRUE(poses) << error;
+  ASSERT_EQ(poses->size(), 2u);
+  EXPECT_NEAR((*poses)[1].translation.norm(), 2.0, 0.1);
+}
+
+TEST_F(OdometryProgramTest, MostlyLostIsNotVouchedFor) {
+  for (const char* name : {"0.bin", "1.bin", "2.bin"}) {
+    Write(name, std::string(160, '\0'));
+  }
+  const ProgramRun run =
+      RunProgram("quatro_odometry", {"--input=" + PathOf(""), "--method=suma"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, HasSubstr("3 scans, 3 lost (0 unreadable)"));
+  EXPECT_THAT(run.err, HasSubstr("frame 1 lost: the scan has 10 points"));
+}
+
+TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {
+  const std::string program = "quatro_odometry";
+  const std::string drive = "--input=" + SimulateDrive();
+  ExpectBadInput(program, {}, "--input", "is empty");
+  ExpectBadInput(
+      program, {"--input=" + PathOf("none")}, "none", "No such file");
+  ExpectBadInput(program, {drive, "--method=loam"}, "--method=loam", "suma");
+  ExpectBadInput(program, {drive, "--interval=0"}, "interval = 0", ">= 1");
+  ExpectBadInput(
+      program, {drive, "--first_frame=9"}, "first_frame = 9", "after the last");
+  ExpectBadInput(program, {drive, "--last_frame=9"}, "poses.txt", "frame 6");
+  ExpectBadInput(program, {drive, "--outside=x"}, "--outside", "NAME=POSES");
+  ExpectBadInput(
+      program, {drive, "--outside=x=" + PathOf("y")}, PathOf("y"), "No such");
+  ExpectBadInput(program,
+                 {drive, "--truth=" + Write("t.txt", "1 2\n")},
+                 "t.txt: line 1",
+                 "12");
+  ExpectBadInput(program,
+                 {drive, "--output=" + PathOf("drive/poses.txt")},
+                 "poses.txt",
+                 "also an input");
+  ExpectBadInput(program,
+                 {drive, "--output=" + PathOf("none/x.txt")},
+                 "none",
+                 "no folder");
+  std::filesystem::create_directories(PathOf("empty"));
+  ExpectBadInput(program, {"--input=" + PathOf("empty")}, "empty", "holds no");
+  std::filesystem::create_directories(PathOf("named"));
+  Write("named/first.bin", "");
+  ExpectBadInput(
+      program, {"--input=" + PathOf("named")}, "first.bin", "number");
+  Write("named/first.bin", "");
+  std::filesystem::remove(PathOf("named/first.bin"));
+  Write("named/1.bin", "");
+  Write("named/01.bin", "");
+  ExpectBadInput(program, {"--input=" + PathOf("named")}, "named", "frame 1");
+}
+
+}  // namespace
+}  // namespace quatro
