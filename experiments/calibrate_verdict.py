@@ -15,7 +15,8 @@ of the features x_j in the results, fitted to the pairs of one half by least
 negative log-likelihood with a ridge on w_j (1e-3 per pair). The halves are
 drawn by a hash of the scans' names, so that they are the same in every run; on
 the other half the table, the receiver's curve and the reliability diagram are
-made. Weights to go into robust/success_model.cc are printed, by the half that
+made. The model of matches alone is fitted without places that have a twin, which
+matches cannot tell. Weights to go into robust/success_model.cc are printed, by the half that
 was fitted: what is reported is what ships.
 
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
@@ -149,8 +150,11 @@ def main(args):
     parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_apart",
                         metavar="SET,SET", help="of places that have a twin, which matches alone "
                         "cannot tell: left out of their model (default: %(default)s)")
-    parser.add_argument("--threshold", type=float, default=0.9, metavar="P",
-                        help="registered from this probability on (default: 0.9)")
+    parser.add_argument("--alike", default="corridor_floor,hall_floor", metavar="SET,SET",
+                        help="of different places that are built alike, where a pose does fit: "
+                        "left out, and told apart (default: %(default)s)")
+    parser.add_argument("--threshold", type=float, default=0.8, metavar="P",
+                        help="registered from this probability on (default: 0.8)")
     options = parser.parse_args(args)
     if options.picture:
         run_pairs.check_writable(options.picture)
@@ -160,10 +164,11 @@ def main(args):
           f"{sum(case.is_right for case in answered)} of these right")
     names = list(max((case.features for case in answered), key=len))
     models = []
-    twins = options.twins.split(",")
+    twins, alike = options.twins.split(","), options.alike.split(",")
     for title, chosen in (("matches alone", names[:2]), ("matches and clouds", names)):
+        left_out = alike if chosen is names else alike + twins
         usable = [case for case in answered if all(name in case.features for name in chosen)
-                  and (chosen is names or case.set not in twins)]
+                  and case.set not in left_out]
         fitted = [case for case in usable if not case.is_reported]
         reported = [case for case in usable if case.is_reported]
         w = fit(matrix(fitted, chosen), np.array([case.is_right for case in fitted], float))
@@ -174,6 +179,12 @@ def main(args):
         report(f"  fitted on {len(fitted)}, reported on {len(reported)}", y, p, options.threshold)
         models.append((title, y, p))
         if chosen is names:
+            clear = np.array([case.set not in twins for case in reported])
+            report("    without the sets of --twins", y[clear], p[clear], options.threshold)
+            others = [case for case in answered if case.set in alike]
+            if others:
+                report("    different places that are built alike", np.zeros(len(others)),
+                       probability(w, matrix(others, chosen)), options.threshold)
             for name in sorted({case.set for case in reported}):
                 own = np.array([case.set == name for case in reported])
                 report(f"    {name}", y[own], p[own], options.threshold)

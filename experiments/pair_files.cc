@@ -62,7 +62,10 @@ std::string FileName(const PairSetOptions& set, int index, const char* which) {
 std::string FormatRow(const PairSetOptions& set,
                       int index,
                       const SetPair& pair) {
-  std::string row = set.Name() + "," + FileName(set, index, "source") + "," +
+  const std::string name = pair.apart == "other_floor"
+                               ? std::string(WorldName(set.world)) + "_floor"
+                               : set.Name();
+  std::string row = name + "," + FileName(set, index, "source") + "," +
                     FileName(set, index, "target") + ",";
   if (pair.true_target_from_source) {
     const Rigid3& pose = *pair.true_target_from_source;

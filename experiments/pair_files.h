@@ -12,10 +12,11 @@
 // Both lists go on with
 //
 //   world,variant,sensor,seed,apart   what was simulated; apart: other_seed,
-//                                     far_apart or other_floor of a negative
-//   source_rpy_deg,target_rpy_deg     "roll,pitch,yaw" of the sensors as a
-//   noisy
-//                                     INS has them, for the flags of that name
+//                                     far_apart or other_floor of a negative.
+//                                     The last are of a set WORLD_floor: walls
+//                                     and pillars are alike, so a pose does fit
+//   source_rpy_deg,target_rpy_deg     "roll,pitch,yaw" of the sensors as an INS
+//                                     has them, for the flags of that name
 //   ins_std_deg                       of each of these angles
 //   twin_tx ... twin_qw               of worlds with a symmetry: the other pose
 //                                     by which the scans fit

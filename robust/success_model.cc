@@ -12,10 +12,11 @@ namespace quatro {
 namespace {
 
 // From the output of experiments/calibrate_verdict.py.
-constexpr double kMatchesIntercept = -6.0;
-constexpr double kMatchesWeights[] = {1.0, 1.0};
-constexpr double kCloudsIntercept = -6.0;
-constexpr double kCloudsWeights[] = {1.0, 1.0, 4.0, 1.0, 1.0, 1.0, 1.0};
+constexpr double kMatchesIntercept = -5.207;
+constexpr double kMatchesWeights[] = {3.577, 3.931};
+constexpr double kCloudsIntercept = -8.557;
+constexpr double kCloudsWeights[] = {
+    0.0, 0.984, 2.046, 3.001, 1.926, 2.576, 1.616};
 
 // What is assumed where free space is not known: it says little either way.
 constexpr double kUsualContradictedShare = 0.1;

@@ -45,7 +45,7 @@ const char* StatusName(Status status);
 
 struct VerdictOptions {
   // Registered iff the probability of success is no less.
-  double min_probability = 0.9;
+  double min_probability = 0.8;
 
   RivalOptions rival;  // Its seed and threads are those of the call.
 
