@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""experiments/run_pairs.py, compare_methods.py, list_wrong_pairs.py and
+calibrate_verdict.py against a stand-in for quatro_register."""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
+sys.path.insert(0, str(SCRIPTS))
+import list_wrong_pairs  # noqa: E402
+import run_pairs  # noqa: E402
+
+# Registers sources named a*; counts its calls; stops the run at c.bin if there
+# is a file "stop" beside it. --method=half is off by 5 m.
+STAND_IN = """#!/usr/bin/env python3
+import json, os, pathlib, sys
+flags = dict(arg.lstrip("-").split("=", 1) for arg in sys.argv[1:])
+source = pathlib.Path(flags["source"])
+with open(source.parent / "calls", "a") as calls:
+    calls.write(source.name + "\\n")
+if source.name == "c.bin" and (source.parent / "stop").exists():
+    print("c.bin: stopped", file=sys.stderr)
+    sys.exit(2)
+registered = source.name.startswith("a")
+shift = 5.0 if flags.get("method") == "half" else 0.0
+print(json.dumps({"status": "registered" if registered else "ambiguous",
+    "probability": 0.95 if registered else 0.1,
+    "target_from_source": [[1, 0, 0, shift], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+    "evidence": {"features": {"surprise": 1.0 if registered else 0.0, "margin": 0.5}},
+    "timings_ms": {"voxels": 2.0, "matching": 3.0, "clique": 1.0, "total": 6.0}}))
+sys.exit(0 if registered else 1)
+"""
+
+
+class PairScriptsTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        for name in ("a.bin", "b.bin", "c.bin", "t.bin"):
+            (self.folder / name).touch()
+        self.program = self.write("stand_in", STAND_IN)
+        os.chmod(self.program, 0o755)
+        self.pairs = self.write(
+            "pairs.csv", "set,source,target,tx,ty,tz,qx,qy,qz,qw\n"
+            "one,a.bin,t.bin,0,0,0,0,0,0,1\none,b.bin,t.bin,0,0,0,0,0,0,1\n"
+            "two,c.bin,t.bin,,,,,,,\n")
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return str(self.folder / name)
+
+    def run_script(self, name, *args):
+        return subprocess.run([sys.executable, str(SCRIPTS / name), *args], capture_output=True,
+                              text=True, check=False, stdin=subprocess.DEVNULL)
+
+    def run_pairs(self, *flags):
+        return self.run_script("run_pairs.py", f"--program={self.program}",
+                               f"--pairs={self.pairs}", f"--output={self.folder}/out.csv",
+                               *(["--", *flags] if flags else []))
+
+    def calls(self):
+        return (self.folder / "calls").read_text().split()
+
+    def test_pairs_are_measured_and_those_without_a_pose_must_not_be_registered(self):
+        run = self.run_pairs()
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.folder / "out.csv", newline="", encoding="utf-8") as file:
+            a, b, c = csv.DictReader(file)
+        self.assertEqual((a["status"], a["success_0.3m_1deg"], a["features"]),
+                         ("registered", "1", "surprise=1;margin=0.5"))
+        self.assertEqual((b["status"], b["wrong_but_registered"]), ("ambiguous", "0"))
+        self.assertEqual((c["success_2m_10deg"], c["wrong_but_registered"]), ("", "0"))
+        self.assertGreater(float(a["peak_mb"]), 1.0)
+        self.assertEqual(a["stages_ms"], "voxels=2.0;matching=3.0;clique=1.0")
+
+    def test_a_run_that_was_stopped_goes_on(self):
+        self.write("stop", "")
+        run = self.run_pairs()
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("c.bin: stopped", run.stderr)
+        self.assertFalse((self.folder / "out.csv").exists())
+        (self.folder / "stop").unlink()
+        self.assertEqual(self.run_pairs().returncode, 0)
+        self.assertEqual(self.calls(), ["a.bin", "b.bin", "c.bin", "c.bin"])
+        self.assertFalse((self.folder / "out.csv.part").exists())
+
+    def test_a_line_that_was_cut_short_is_run_again(self):
+        self.write("stop", "")
+        self.run_pairs()
+        part = self.folder / "out.csv.part"
+        part.write_text(part.read_text()[:-20])
+        (self.folder / "stop").unlink()
+        self.assertEqual(self.run_pairs().returncode, 0)
+        self.assertEqual(self.calls(), ["a.bin", "b.bin", "c.bin", "b.bin", "c.bin"])
+
+    def test_another_run_is_not_mixed_in(self):
+        self.write("stop", "")
+        self.run_pairs()
+        run = self.run_pairs("--preset=paper")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("other flags", run.stderr)
+
+    def test_methods_are_compared_in_one_table(self):
+        args = ("compare_methods.py", f"--program={self.program}", f"--pairs={self.pairs}",
+                "--methods=whole,half", f"--output={self.folder}/out")
+        run = self.run_script(*args)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        rows = [[cell.strip() for cell in line.strip("|\n").split("|")]
+                for line in run.stdout.splitlines()]
+        self.assertEqual(rows[2][:8], ["whole", "1", "2", "2", "2", "0", "0.000 / 0.000",
+                                       "0.00 / 0.00"])
+        self.assertEqual(rows[2][8:10], ["5.0", "1.0"])
+        self.assertEqual(rows[3][:7], ["half", "1", "0", "0", "0", "1", "- / -"])
+        # Again: from what is there, unless the flags are others.
+        num_calls = len(self.calls())
+        self.assertEqual(self.run_script(*args).stdout, run.stdout)
+        self.assertEqual(len(self.calls()), num_calls)
+        other = self.run_script(*args, "--", "--preset=paper")
+        self.assertEqual(other.returncode, 2)
+        self.assertIn("other flags", other.stderr)
+
+    def test_wrong_pairs_are_of_different_places(self):
+        pair = run_pairs.Pair
+        pairs = [pair("s", "a", "b", None), pair("s", "c", "b", None), pair("s", "d", "e", None),
+                 pair("t", "f", "g", None), pair("u", "h", "i", None)]
+        places = list_wrong_pairs.find_places(pairs, [["t", "u"]])
+        self.assertEqual(sorted(map(sorted, places)),
+                         [["a", "b", "c"], ["d", "e"], ["f", "g", "h", "i"]])
+
+    def test_wrong_pairs_are_listed_for_run_pairs(self):
+        pairs = self.write("places.csv", "set,source,target\none,a.bin,b.bin\ntwo,c.bin,t.bin\n")
+        run = self.run_script("list_wrong_pairs.py", f"--pairs={pairs}", "--each=3",
+                              f"--output={self.folder}/wrong.csv")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("2 places, 3 pairs", run.stdout)
+        listed = run_pairs.read_pairs(str(self.folder / "wrong.csv"), [])
+        self.assertEqual(len({(p.source, p.target) for p in listed}), 3)
+        for p in listed:
+            self.assertIn(pathlib.Path(p.source).name, ("a.bin", "b.bin"))
+            self.assertIn(pathlib.Path(p.target).name, ("c.bin", "t.bin"))
+            self.assertIsNone(p.pose)
+
+    def test_bad_lists_are_one_line(self):
+        for text, problem in (("source\n", "there is no column target"),
+                              ("source,target\nx.bin,t.bin\n", "there is no file 'x.bin'"),
+                              ("source,target\n", "there are no pairs")):
+            pairs = self.write("bad.csv", text)
+            run = self.run_script("list_wrong_pairs.py", f"--pairs={pairs}",
+                                  f"--output={self.folder}/wrong.csv")
+            self.assertEqual(run.returncode, 2)
+            self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+            self.assertIn(problem, run.stderr)
+
+
+class CalibrationTest(unittest.TestCase):
+    def setUp(self):
+        try:
+            import calibrate_verdict
+        except ImportError:
+            self.skipTest("this Python has no numpy")
+        self.calibration = calibrate_verdict
+
+    def test_weights_are_those_that_made_the_data_and_never_negative(self):
+        import numpy as np
+        random = np.random.default_rng(1)
+        x = random.uniform(0.0, 1.0, (20000, 3))
+        # The third speaks against: its weight is held at 0.
+        truth = np.array([-3.0, 4.0, 2.0, -0.5])
+        p = 1.0 / (1.0 + np.exp(-(truth[0] + x @ truth[1:])))
+        y = (random.uniform(size=len(p)) < p).astype(float)
+        w = self.calibration.fit(x, y, ridge=1e-7)
+        self.assertEqual(w[3], 0.0)
+        self.assertAlmostEqual(w[1], 4.0, delta=0.25)
+        self.assertAlmostEqual(w[2], 2.0, delta=0.25)
+        # At the minimum the fitted rates are the seen ones.
+        fitted = self.calibration.probability(w, x)
+        self.assertAlmostEqual(fitted.mean(), y.mean(), places=6)
+
+    def test_intervals_of_rates_are_wilsons(self):
+        low, high = self.calibration.wilson(1, 372)
+        self.assertAlmostEqual(low, 0.00047, places=4)
+        self.assertAlmostEqual(high, 0.0151, places=4)
+
+
+if __name__ == "__main__":
+    unittest.main()
