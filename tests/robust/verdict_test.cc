@@ -14,6 +14,7 @@
 #include <string>
 
 #include "robust/quatro.h"
+#include "robust/teaser.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
@@ -244,6 +245,42 @@ TEST(Judge, RegistersWhatQuatroFoundAmongOutliers) {
     EXPECT_TRUE(verdict.IsRegistered())
         << "seed " << seed << ": " << verdict.reason;
   }
+}
+
+// What is true of one match and of two, where nothing rules out chance.
+TEST(Judge, NeverRegistersAWrongAnswerFromOneMatchOrTwo) {
+  int num_right = 0;
+  for (const Eigen::Index num_inliers : {1, 2}) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const KnownProblem problem = MakeInconsistentProblem(
+          {.num_inliers = num_inliers, .num_outliers = 30}, 0.6, seed);
+      const QuatroSummary yaw_only =
+          SolveQuatro(problem.source, problem.target, {});
+      const TeaserSummary rigid =
+          SolveTeaser(problem.source, problem.target, {});
+      for (const PoseSummary* summary :
+           {static_cast<const PoseSummary*>(&yaw_only),
+            static_cast<const PoseSummary*>(&rigid)}) {
+        const Verdict verdict = Judge(problem.source,
+                                      problem.target,
+                                      *summary,
+                                      kNoiseBound,
+                                      std::nullopt,
+                                      {});
+        const bool is_right =
+            summary->IsUsable() &&
+            AngleBetween(summary->target_from_source->rotation,
+                         problem.true_target_from_source.rotation) < 0.05;
+        EXPECT_TRUE(is_right || !verdict.IsRegistered())
+            << num_inliers << ", seed " << seed << ": " << verdict.reason;
+        if (summary == &yaw_only && is_right) {
+          ++num_right;
+          EXPECT_NE(verdict.status, Status::kInsufficient) << "seed " << seed;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(num_right, 20);  // Those of two.
 }
 
 TEST(Judge, PassesOnWhyThereIsNoAnswer) {
