@@ -1,0 +1,5 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gtest/gtest.h>
+TEST(Placeholder, None) {}
