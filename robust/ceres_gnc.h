@@ -23,6 +23,14 @@
 // residuals: right if these are whitened and independent. (Ceres' cost is half
 // of |r|^2; the bound is of |r|, without the half.)
 //
+// Greed. Truncated least squares at the step of 1.4 forgets fast: where the
+// plain fit is far off it can settle on chance. A mu_step of 1.1, or Geman and
+// McClure's, cost more solves and go wrong less.
+//
+// Tolerances. Where all inner solves have to agree to the last digits, Ceres
+// may take steps that are no more than rounding for a failure; its own
+// function_tolerance below 1e-14 asks for that.
+//
 // A block's own loss. Weights multiply rho_i, and it is rho_i that is held
 // against c_i^2, so that both halves of the loop lower (1): a ScaledLoss may do
 // the whitening. A loss that never reaches its bound could never be rejected

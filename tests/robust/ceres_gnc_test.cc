@@ -59,13 +59,14 @@ struct MeanProblem {
   ceres::Problem problem;
 };
 
-// Exact to the last digits: the problems here are small.
+// About as far as Ceres goes: beyond that its steps are no more than rounding,
+// and it takes them for a failure.
 CeresGncOptions Tight(double bound = 1.0) {
   CeresGncOptions options;
   options.bound = bound;
-  options.solver.function_tolerance = 1e-16;
-  options.solver.gradient_tolerance = 1e-16;
-  options.solver.parameter_tolerance = 1e-16;
+  options.solver.function_tolerance = 1e-14;
+  options.solver.gradient_tolerance = 1e-12;
+  options.solver.parameter_tolerance = 1e-14;
   options.solver.max_num_iterations = 200;
   options.solver.logging_type = ceres::SILENT;
   return options;
@@ -201,15 +202,15 @@ TEST(CeresGncMu, StartsFromTheLargestResidualOverItsOwnBound) {
 }
 
 TEST(CeresGncMu, KnownBlocksHaveNoSayInTheStart) {
-  MeanProblem mean({0.0, 0.0, 0.0, 4.0, 100.0, 1.0});
+  MeanProblem mean({0.1, 0.1, 0.1, 3.7, 100.0, 1.0});
   CeresGncOptions options = Tight();
   options.known_outliers = {mean.ids[4]};
   options.known_inliers = {mean.ids[3]};
-  // The plain fit is 1 with the one at 4, without that at 100; of the
-  // candidates those at 0 are the farthest, and within their bound.
+  // The plain fit is 1 with the one at 3.7, without that at 100; of the
+  // candidates those at 0.1 are the farthest, and within their bound.
   const auto summary = SolveCeresGnc(&mean.problem, options);
   EXPECT_EQ(summary.termination, GncTermination::kAllInliers);
-  EXPECT_NEAR(mean.x, 1.0, 1e-12);
+  EXPECT_NEAR(mean.x, 1.0, 1e-7);
 }
 
 TEST(CeresGncMu, MovesByItsStep) {
@@ -293,12 +294,12 @@ TEST(CeresGncStop, UsableWhenIterationsRunOut) {
 }
 
 TEST(CeresGncStop, AtThePlainFitWhereAllAreInliers) {
-  MeanProblem mean({1.0, 2.0, 3.0});
+  MeanProblem mean({1.1, 2.0, 2.9});
   const auto summary = SolveCeresGnc(&mean.problem, Tight());
   EXPECT_EQ(summary.termination, GncTermination::kAllInliers);
   EXPECT_TRUE(summary.iterations.empty());
   EXPECT_EQ(summary.inner.size(), 1u);
-  EXPECT_NEAR(mean.x, 2.0, 1e-12);
+  EXPECT_NEAR(mean.x, 2.0, 1e-7);
   for (const Id id : mean.ids) EXPECT_EQ(summary.blocks.at(id).weight, 1.0);
 }
 
@@ -425,7 +426,7 @@ TEST(CeresGncRoles, NoCandidatesIsThePlainSolve) {
   options.candidates.emplace();
   const auto summary = SolveCeresGnc(&mean.problem, options);
   EXPECT_EQ(summary.termination, GncTermination::kAllInliers);
-  EXPECT_NEAR(mean.x, 8.5, 1e-9);
+  EXPECT_NEAR(mean.x, 8.5, 1e-7);
 }
 
 // Never to be asked.
@@ -443,7 +444,7 @@ TEST(CeresGncRoles, KnownOutliersAreNotEvaluated) {
   options.known_outliers = {bad};
   const auto summary = SolveCeresGnc(&mean.problem, options);
   EXPECT_TRUE(summary.IsUsable()) << summary.FullReport();
-  EXPECT_EQ(mean.x, 0.0);
+  EXPECT_NEAR(mean.x, 0.0, 1e-7);
 }
 
 class CeresGncRefuses : public ::testing::Test {
@@ -618,8 +619,7 @@ class CallersProblem : public ::testing::Test {
     problem_->SetParameterBlockConstant(y_);
     for (int i = 0; i < 10; ++i) {
       losses_.push_back(i % 2 == 0 ? nullptr
-                                   : new Counted<ceres::HuberLoss>(
-                                         &num_losses_deleted_, 2.0));
+                                   : new CountedHuber(&num_losses_deleted_));
       ids_.push_back(problem_->AddResidualBlock(
           new ceres::AutoDiffCostFunction<TwoNumbers, 2, 2, 1>(
               new TwoNumbers{i < 7 ? 0.3 + 0.01 * i : 20.0, 1.0}),
@@ -845,40 +845,63 @@ struct LineResidual {
   double x, y;
 };
 
-TEST(CeresGncTest, FindsTheLineThatThePlainSolveAndHuberMiss) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+// 300 points, 90 of them within 0.05 of a line and the rest anywhere.
+struct LineProblem {
+  explicit LineProblem(std::uint64_t seed, double huber = 0.0) {
     Random random(seed);
-    ceres::Problem problem;
-    ceres::Problem with_huber;
-    double plain[2] = {0.0, 0.0};
-    double line[2] = {0.0, 0.0};
-    double huber[2] = {0.0, 0.0};
-    std::vector<Id> ids;
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 300; ++i) {
       const double x = 10.0 * random.Uniform();
-      const double y = i < 30 ? 0.5 * x + 1.0 + 0.05 * SignedUniform(&random)
+      const double y = i < 90 ? 0.5 * x + 1.0 + 0.05 * SignedUniform(&random)
                               : 20.0 * random.Uniform();
-      const auto make = [&] {
-        return new ceres::AutoDiffCostFunction<LineResidual, 1, 2>(
-            new LineResidual{x, y});
-      };
-      ids.push_back(problem.AddResidualBlock(make(), nullptr, line));
-      with_huber.AddResidualBlock(make(), new ceres::HuberLoss(0.1), huber);
+      ids.push_back(problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<LineResidual, 1, 2>(
+              new LineResidual{x, y}),
+          huber > 0.0 ? new ceres::HuberLoss(huber) : nullptr,
+          line));
     }
+  }
+
+  void SolvePlain() {
     ceres::Solver::Summary ignored;
     ceres::Solve(Tight().solver, &problem, &ignored);
-    std::copy(line, line + 2, plain);
-    ceres::Solve(Tight().solver, &with_huber, &ignored);
-    line[0] = line[1] = 0.0;
-    const auto summary = SolveCeresGnc(&problem, Tight(0.1));
-    ASSERT_TRUE(summary.IsUsable()) << summary.FullReport();
-    EXPECT_NEAR(line[0], 0.5, 0.02) << "seed " << seed;
-    EXPECT_NEAR(line[1], 1.0, 0.06) << "seed " << seed;
-    EXPECT_GT(std::abs(plain[1] - 1.0), 1.0) << "seed " << seed;
-    EXPECT_GT(std::abs(huber[1] - 1.0), 0.1) << "seed " << seed;
-    for (int i = 0; i < 30; ++i) {
-      EXPECT_EQ(summary.blocks.at(ids[static_cast<std::size_t>(i)]).weight, 1.0)
-          << "seed " << seed;
+  }
+
+  // Of the line's ends, the worse.
+  double Error() const {
+    return std::max(std::abs(line[1] - 1.0),
+                    std::abs(10.0 * line[0] + line[1] - 6.0));
+  }
+
+  double line[2] = {0.0, 0.0};
+  std::vector<Id> ids;
+  ceres::Problem problem;
+};
+
+TEST(CeresGncTest, FindsTheLineThatThePlainSolveAndHuberMiss) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    LineProblem plain(seed);
+    plain.SolvePlain();
+    EXPECT_GT(plain.Error(), 1.0) << "seed " << seed;
+    LineProblem huber(seed, 0.1);
+    huber.SolvePlain();
+    EXPECT_GT(huber.Error(), 0.5) << "seed " << seed;
+
+    // At a step of 1.4 truncated least squares is too greedy here.
+    CeresGncOptions options = Tight(0.1);
+    options.gnc.mu_step = 1.1;
+    options.gnc.max_num_iterations = 300;
+    for (const auto surrogate : {SurrogateType::kTruncatedLeastSquares,
+                                 SurrogateType::kGemanMcClure,
+                                 SurrogateType::kWelsch}) {
+      options.surrogate = surrogate;
+      LineProblem gnc(seed);
+      const auto summary = SolveCeresGnc(&gnc.problem, options);
+      ASSERT_TRUE(summary.IsUsable()) << summary.FullReport();
+      EXPECT_LT(gnc.Error(), 0.1) << "seed " << seed;
+      for (std::size_t i = 0; i < 90; ++i) {
+        EXPECT_LE(summary.blocks.at(gnc.ids[i]).squared_residual, 1.0)
+            << "seed " << seed;
+      }
     }
   }
 }

@@ -109,7 +109,9 @@ double SolveWithCallback(double mu, bool lower_mu) {
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   EXPECT_TRUE(summary.IsSolutionUsable()) << summary.FullReport();
-  if (lower_mu) EXPECT_EQ(mu, 1.0);
+  if (lower_mu) {
+    EXPECT_EQ(mu, 1.0);
+  }
   return x;
 }
 
@@ -125,7 +127,7 @@ TEST(GncLossInACallback, FindsTheLargerHeapWhereTheLossAloneDoesNot) {
 TEST(GncLossInALoop, TruncatedLeastSquaresTakesASolvePerMu) {
   double x = 11.0;
   double mu =
-      TruncatedLeastSquares::InitialMu(11.6 * 11.6, GncStart::kIdentity);
+      TruncatedLeastSquares::InitialMu(11.6 * 11.6, GncStart::kPlainFit);
   ceres::Problem problem;
   AddTwoHeaps(new GncLoss<TruncatedLeastSquares>(1.0, &mu), &x, &problem);
   ceres::Solver::Options options;
