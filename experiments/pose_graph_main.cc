@@ -36,6 +36,9 @@ DEFINE_string(world, "manhattan", "manhattan (in the plane) or sphere");
 DEFINE_int32(poses, 400, "Of the generated world");
 DEFINE_int32(loops, 200, "Of the generated world, right and wrong");
 DEFINE_double(wrong_share, 0.5, "Of the loops that are wrong");
+DEFINE_int32(max_wrong_steps,
+             0,
+             "Wrong loops join poses this many steps apart at most; 0: any");
 DEFINE_uint64(seed, 0, "Of the generated world");
 DEFINE_string(world_output, "", "g2o file for the generated world as it is");
 DEFINE_string(protocol,
@@ -103,6 +106,7 @@ quatro::WorldOptions WorldFromFlags() {
   world.num_poses = FLAGS_poses;
   world.num_loops = FLAGS_loops;
   world.wrong_share = FLAGS_wrong_share;
+  world.max_wrong_steps = FLAGS_max_wrong_steps;
   world.seed = FLAGS_seed;
   return world;
 }

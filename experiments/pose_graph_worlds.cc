@@ -43,7 +43,7 @@ Eigen::Matrix3d Exp(const Eigen::Vector3d& rotation) {
 // it would leave it. The square is small enough to come by again.
 std::vector<Rigid3> WalkManhattan(int num_poses, Random* random) {
   const double half =
-      kStreet * std::max(2.0, std::round(std::sqrt(num_poses) / kStreet));
+      kStreet * std::max(1.0, std::round(std::sqrt(num_poses) / 8.0));
   std::vector<Rigid3> poses;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   int quarter = 0;

@@ -80,8 +80,8 @@ TEST_F(PoseGraphProgramTest, FullReportHasTheTrace) {
 TEST_F(PoseGraphProgramTest, ProtocolWritesATableOfEveryLossAndShare) {
   const ProgramRun run = RunProgram("quatro_pose_graph",
                                     {"--protocol=wrong_loops",
-                                     "--poses=60",
-                                     "--loops=10",
+                                     "--poses=100",
+                                     "--loops=20",
                                      "--seeds=1",
                                      "--output=" + PathOf("table.csv")});
   EXPECT_EQ(run.exit_code, 0) << run.err;

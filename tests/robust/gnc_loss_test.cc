@@ -125,9 +125,9 @@ TEST(GncLossInACallback, FindsTheLargerHeapWhereTheLossAloneDoesNot) {
 }
 
 TEST(GncLossInALoop, TruncatedLeastSquaresTakesASolvePerMu) {
-  double x = 11.0;
+  double x = 3.5;  // The plain fit.
   double mu =
-      TruncatedLeastSquares::InitialMu(11.6 * 11.6, GncStart::kPlainFit);
+      TruncatedLeastSquares::InitialMu(6.65 * 6.65, GncStart::kPlainFit);
   ceres::Problem problem;
   AddTwoHeaps(new GncLoss<TruncatedLeastSquares>(1.0, &mu), &x, &problem);
   ceres::Solver::Options options;
