@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -36,6 +37,8 @@ DEFINE_string(world, "manhattan", "manhattan (in the plane) or sphere");
 DEFINE_int32(poses, 400, "Of the generated world");
 DEFINE_int32(loops, 200, "Of the generated world, right and wrong");
 DEFINE_double(wrong_share, 0.5, "Of the loops that are wrong");
+DEFINE_double(sigma_m, 0.02, "Noise of the generated world on each axis [m]");
+DEFINE_double(sigma_deg, 0.3, "The same about each axis [deg]");
 DEFINE_int32(max_wrong_steps,
              0,
              "Wrong loops join poses this many steps apart at most; 0: any");
@@ -107,6 +110,8 @@ quatro::WorldOptions WorldFromFlags() {
   world.num_loops = FLAGS_loops;
   world.wrong_share = FLAGS_wrong_share;
   world.max_wrong_steps = FLAGS_max_wrong_steps;
+  world.translation_sigma = FLAGS_sigma_m;
+  world.rotation_sigma = FLAGS_sigma_deg * M_PI / 180.0;
   world.seed = FLAGS_seed;
   return world;
 }

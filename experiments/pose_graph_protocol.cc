@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -65,6 +66,8 @@ Table RunWrongLoopProtocol(int num_seeds,
                            const Progress& progress) {
   Table table;
   table.columns = {"world",
+                   "sigma_m",
+                   "sigma_deg",
                    "wrong_share",
                    "loss",
                    "runs",

@@ -9,7 +9,7 @@
 //
 // Measurements are normal about the truth. A wrong loop is between two poses
 // drawn at random and says that they are within 1 m of each other, at any
-// heading: it is more than `min_wrong_sigmas` from the truth.
+// heading, and is more than 0.4 m from the truth.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPH_WORLDS_H_
 #define QUATRO_EXPERIMENTS_POSE_GRAPH_WORLDS_H_
@@ -34,7 +34,6 @@ struct WorldOptions {
 
   double translation_sigma = 0.02;  // [m], on each axis.
   double rotation_sigma = 0.005;    // [rad], about each axis.
-  double min_wrong_sigmas = 20.0;
   std::uint64_t seed = 0;
 
   // Returns false and says why in *error if a value is out of range.

@@ -87,8 +87,8 @@ TEST_F(PoseGraphProgramTest, ProtocolWritesATableOfEveryLossAndShare) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const std::string csv = Read("table.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 9 * 5);
-  EXPECT_THAT(csv, HasSubstr("manhattan,0.1,gnc,1,"));
-  EXPECT_THAT(csv, HasSubstr("sphere,0.9,none,1,"));
+  EXPECT_THAT(csv, HasSubstr("manhattan,0.02,0.3,0.1,gnc,1,"));
+  EXPECT_THAT(csv, HasSubstr("sphere,0.02,0.3,0.9,none,1,"));
 }
 
 TEST_F(PoseGraphProgramTest, BadFlagsAreRefused) {
@@ -105,6 +105,8 @@ TEST_F(PoseGraphProgramTest, BadFlagsAreRefused) {
   expect_refused("--mu_step=1", "mu_step = 1");
   expect_refused("--gnc_start=here", "--gnc_start=here");
   expect_refused("--threads=0", "--threads");
+  expect_refused("--sigma_m=0", "sigma = 0");
+  expect_refused("--sigma_deg=nan", "sigma = nan");
   expect_refused("--protocol=none", "--protocol=none");
 }
 

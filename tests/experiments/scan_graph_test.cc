@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -121,6 +122,42 @@ TEST(AddLoops, TakesThoseWithAnAnswer) {
   EXPECT_EQ(graph.edges[0].from_from_to.translation, Eigen::Vector3d(1, 2, 3));
 }
 
+// A line of pairs.csv of which both scans are in the graph: where the first is
+// seen from the second.
+struct ListedPair {
+  std::size_t source = 0;
+  std::size_t target = 0;
+  Rigid3 target_from_source;
+};
+
+std::optional<std::size_t> IndexOfScan(const std::string& path) {
+  for (std::size_t i = 0; i < std::size(kFrames); ++i) {
+    if (DataPath(path) == ScanPath(kFrames[i])) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<ListedPair> ReadListedPairs() {
+  std::vector<ListedPair> pairs;
+  std::ifstream file(DataPath("pairs.csv"));
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string> row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    if (row.size() < 10) continue;
+    const auto source = IndexOfScan(row[1]);
+    const auto target = IndexOfScan(row[2]);
+    if (!source || !target) continue;
+    const auto number = [&](std::size_t i) { return std::stod(row[i]); };
+    const Eigen::Quaterniond q(number(9), number(6), number(7), number(8));
+    pairs.push_back({*source,
+                     *target,
+                     {q.normalized().toRotationMatrix(),
+                      {number(3), number(4), number(5)}}});
+  }
+  return pairs;
+}
+
 class ScanGraphTest : public ProgramTest {};
 
 TEST_F(ScanGraphTest, GncKeepsTheRightPairsOfRealScansAndDropsTheWrong) {
@@ -193,6 +230,21 @@ TEST_F(ScanGraphTest, GncKeepsTheRightPairsOfRealScansAndDropsTheWrong) {
       error_of(plain.world_from_pose),
       error_of(graph.world_from_pose));
   EXPECT_LT(error_of(graph.world_from_pose), 0.3);
+
+  const auto listed = ReadListedPairs();
+  EXPECT_GE(listed.size(), 6u);
+  for (const ListedPair& pair : listed) {
+    const Rigid3 found = Inverse(graph.world_from_pose[pair.target]) *
+                         graph.world_from_pose[pair.source];
+    const auto name = std::to_string(kFrames[pair.source]) + " and " +
+                      std::to_string(kFrames[pair.target]);
+    EXPECT_LT((found.translation - pair.target_from_source.translation).norm(),
+              0.3)
+        << name;
+    EXPECT_LT(AngleBetween(found.rotation, pair.target_from_source.rotation),
+              1.0 * kDegree)
+        << name;
+  }
   EXPECT_GT(error_of(plain.world_from_pose), 1.0);
 }
 
