@@ -673,6 +673,17 @@ TEST_F(CallersProblem, IsAsItWas) {
   EXPECT_EQ(num_manifolds_deleted_, 1);
 }
 
+TEST_F(CallersProblem, ParametersStayWithinTheirBounds) {
+  for (const double end : {0.1, 0.3}) {  // The answer is 0.205.
+    problem_->SetParameterLowerBound(x_, 0, end < 0.2 ? -0.25 : end);
+    problem_->SetParameterUpperBound(x_, 0, end < 0.2 ? end : 0.5);
+    x_[0] = end;
+    const auto summary = SolveCeresGnc(problem_.get(), Tight());
+    ASSERT_TRUE(summary.IsUsable()) << summary.FullReport();
+    EXPECT_EQ(x_[0], end);
+  }
+}
+
 TEST_F(CallersProblem, IsAsItWasAfterTwoCalls) {
   const auto first = SolveCeresGnc(problem_.get(), Tight());
   x_[0] = 0.0;
