@@ -103,8 +103,8 @@ std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
   return options;
 }
 
-quatro::WorldOptions WorldFromFlags() {
-  quatro::WorldOptions world;
+quatro::GraphWorldOptions WorldFromFlags() {
+  quatro::GraphWorldOptions world;
   world.world = FLAGS_world;
   world.num_poses = FLAGS_poses;
   world.num_loops = FLAGS_loops;
@@ -125,11 +125,11 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
   // The most right loops are asked for at the least wrong share.
   for (const char* name : {"manhattan", "sphere"}) {
     for (int seed = 0; seed < FLAGS_seeds; ++seed) {
-      quatro::WorldOptions hardest = WorldFromFlags();
+      quatro::GraphWorldOptions hardest = WorldFromFlags();
       hardest.world = name;
       hardest.wrong_share = 0.1;
       hardest.seed = static_cast<std::uint64_t>(seed);
-      if (!quatro::MakeWorld(hardest, &error)) return Fail("--" + error);
+      if (!quatro::MakeGraphWorld(hardest, &error)) return Fail("--" + error);
     }
   }
   const quatro::Table table = quatro::RunWrongLoopProtocol(
@@ -144,7 +144,7 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
 }
 
 // How many of the wrong and of the right loops kept some weight.
-void PrintTruth(const quatro::World& world,
+void PrintTruth(const quatro::GraphWorld& world,
                 const quatro::PoseGraphOptions& options,
                 const quatro::PoseGraph& answer,
                 const std::vector<double>& weights) {
@@ -189,10 +189,10 @@ int main(int argc, char** argv) {
   }
   if (!FLAGS_protocol.empty()) return RunProtocol(*options);
 
-  std::optional<quatro::World> world;
+  std::optional<quatro::GraphWorld> world;
   quatro::PoseGraph graph;
   if (FLAGS_input.empty()) {
-    world = quatro::MakeWorld(WorldFromFlags(), &error);
+    world = quatro::MakeGraphWorld(WorldFromFlags(), &error);
     if (!world) return Fail("--" + error);
     graph = world->graph;
   } else {

@@ -32,7 +32,8 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-bool AreWrongOnesZero(const World& world, const std::vector<double>& weights) {
+bool AreWrongOnesZero(const GraphWorld& world,
+                      const std::vector<double>& weights) {
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (world.is_wrong[i] != (weights[i] == 0.0)) return false;
   }
@@ -61,7 +62,7 @@ PoseDifference LargestDifference(const std::vector<Rigid3>& a,
 }
 
 Table RunWrongLoopProtocol(int num_seeds,
-                           const WorldOptions& world_options,
+                           const GraphWorldOptions& world_options,
                            const PoseGraphOptions& options,
                            const Progress& progress) {
   Table table;
@@ -81,12 +82,12 @@ Table RunWrongLoopProtocol(int num_seeds,
     for (int tenths = 1; tenths <= 9; ++tenths) {
       std::array<Tally, kLosses.size()> tallies;
       for (int seed = 0; seed < num_seeds; ++seed) {
-        WorldOptions own = world_options;
+        GraphWorldOptions own = world_options;
         own.world = name;
         own.wrong_share = 0.1 * tenths;
         own.seed = static_cast<std::uint64_t>(seed);
         std::string error;
-        const auto world = MakeWorld(own, &error);
+        const auto world = MakeGraphWorld(own, &error);
         CHECK(world.has_value()) << error;
 
         PoseGraph clean = WithoutWrongLoops(*world);
@@ -120,6 +121,8 @@ Table RunWrongLoopProtocol(int num_seeds,
         const Tally& tally = tallies[k];
         table.rows.push_back(
             {name,
+             Format("%g", world_options.translation_sigma),
+             Format("%g", world_options.rotation_sigma * 180.0 / M_PI),
              Format("%.1f", 0.1 * tenths),
              kLosses[k],
              std::to_string(num_seeds),

@@ -28,7 +28,7 @@ PoseDifference LargestDifference(const std::vector<Rigid3>& a,
 // equal if none is more than 1e-6 m and rad. Sizes and noise from `world`,
 // seeds from 0.
 Table RunWrongLoopProtocol(int num_seeds,
-                           const WorldOptions& world,
+                           const GraphWorldOptions& world,
                            const PoseGraphOptions& options,
                            const Progress& progress);
 

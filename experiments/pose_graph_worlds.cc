@@ -136,7 +136,7 @@ void Draw(std::size_t count, Random* random, std::vector<Pair>* pairs) {
 // Adds edges to a world whose true poses are known.
 class EdgeMaker {
  public:
-  EdgeMaker(const WorldOptions& options, World* world, Random* random)
+  EdgeMaker(const GraphWorldOptions& options, GraphWorld* world, Random* random)
       : options_(options), world_(*world), random_(*random) {}
 
   void AddRight(const Pair& pair) {
@@ -205,14 +205,14 @@ class EdgeMaker {
     world_.is_wrong.push_back(is_wrong);
   }
 
-  const WorldOptions& options_;
-  World& world_;
+  const GraphWorldOptions& options_;
+  GraphWorld& world_;
   Random& random_;
 };
 
 }  // namespace
 
-bool WorldOptions::IsValid(std::string* error) const {
+bool GraphWorldOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   const auto is_positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   if (world != "manhattan" && world != "sphere") {
@@ -236,12 +236,12 @@ bool WorldOptions::IsValid(std::string* error) const {
   return error->empty();
 }
 
-std::optional<World> MakeWorld(const WorldOptions& options,
-                               std::string* error) {
+std::optional<GraphWorld> MakeGraphWorld(const GraphWorldOptions& options,
+                                         std::string* error) {
   if (!options.IsValid(error)) return std::nullopt;
   const bool is_planar = options.world == "manhattan";
   Random random(options.seed);
-  World world;
+  GraphWorld world;
   world.graph.dimension = is_planar ? 2 : 3;
   world.true_world_from_pose = is_planar
                                    ? WalkManhattan(options.num_poses, &random)
@@ -274,7 +274,7 @@ std::optional<World> MakeWorld(const WorldOptions& options,
   return world;
 }
 
-PoseGraph WithoutWrongLoops(const World& world) {
+PoseGraph WithoutWrongLoops(const GraphWorld& world) {
   PoseGraph graph = world.graph;
   graph.edges.clear();
   for (std::size_t i = 0; i < world.graph.edges.size(); ++i) {

@@ -23,7 +23,7 @@
 
 namespace quatro {
 
-struct WorldOptions {
+struct GraphWorldOptions {
   std::string world = "manhattan";  // Or sphere.
   int num_poses = 400;
   int num_loops = 200;       // Right and wrong together.
@@ -40,7 +40,7 @@ struct WorldOptions {
   bool IsValid(std::string* error) const;
 };
 
-struct World {
+struct GraphWorld {
   PoseGraph graph;  // Poses by the odometry alone; the first is fixed.
   std::vector<Rigid3> true_world_from_pose;
   std::vector<bool> is_wrong;  // By edge.
@@ -48,10 +48,11 @@ struct World {
 
 // Nullopt if the options are not valid, or the walk has fewer pairs of poses
 // for right loops than are asked for; *error says so.
-std::optional<World> MakeWorld(const WorldOptions& options, std::string* error);
+std::optional<GraphWorld> MakeGraphWorld(const GraphWorldOptions& options,
+                                         std::string* error);
 
 // The same graph without the wrong loops, poses as they are.
-PoseGraph WithoutWrongLoops(const World& world);
+PoseGraph WithoutWrongLoops(const GraphWorld& world);
 
 }  // namespace quatro
 

@@ -71,11 +71,11 @@ TEST_F(G2oTest, ReadsPosesInSpaceWithQuaternionsLastPartLast) {
 
 TEST_F(G2oTest, WhatIsWrittenIsReadBack) {
   for (const char* name : {"manhattan", "sphere"}) {
-    WorldOptions options;
+    GraphWorldOptions options;
     options.world = name;
     options.num_poses = 60;
     options.num_loops = 10;
-    const auto world = MakeWorld(options, &error_);
+    const auto world = MakeGraphWorld(options, &error_);
     ASSERT_TRUE(world.has_value()) << error_;
     const PoseGraph& graph = world->graph;
     const std::string text = FormatG2o(graph);

@@ -14,19 +14,19 @@
 namespace quatro {
 namespace {
 
-World MakeLarge(int num_poses) {
-  WorldOptions options;
+GraphWorld MakeLarge(int num_poses) {
+  GraphWorldOptions options;
   options.num_poses = num_poses;
   options.num_loops = 2 * num_poses;
   options.max_wrong_steps = 100;  // Keeps the factors sparse.
   std::string error;
-  auto world = MakeWorld(options, &error);
+  auto world = MakeGraphWorld(options, &error);
   EXPECT_TRUE(world.has_value()) << error;
   return *world;
 }
 
 TEST(LargePoseGraph, TimeIsThatOfTheInnerSolves) {
-  World world = MakeLarge(10000);
+  GraphWorld world = MakeLarge(10000);
   PoseGraphOptions options;
   options.gnc.max_num_iterations = 3;  // Each is like the others.
   options.solver.max_num_iterations = 2;
@@ -41,7 +41,7 @@ TEST(LargePoseGraph, TimeIsThatOfTheInnerSolves) {
 
 // Bytes in use for the weighted twin of a graph, for each residual block.
 double TwinBytesPerBlock(int num_poses) {
-  World world = MakeLarge(num_poses);
+  GraphWorld world = MakeLarge(num_poses);
   PoseGraphProblem problem(world.graph, PoseGraphOptions());
   const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
   const WeightedProblem twin(problem.problem(), problem.ids(), {}, nullptr);

@@ -16,15 +16,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-World Make(const std::string& name, double wrong_share, std::uint64_t seed) {
-  WorldOptions options;
+GraphWorld Make(const std::string& name,
+                double wrong_share,
+                std::uint64_t seed) {
+  GraphWorldOptions options;
   options.world = name;
   options.num_poses = 200;
   options.num_loops = 100;
   options.wrong_share = wrong_share;
   options.seed = seed;
   std::string error;
-  auto world = MakeWorld(options, &error);
+  auto world = MakeGraphWorld(options, &error);
   EXPECT_TRUE(world.has_value()) << error;
   return *world;
 }
@@ -41,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Worlds,
                          ::testing::Values("manhattan", "sphere"));
 
 TEST_P(PoseGraphWorld, IsWhatItSays) {
-  const World world = Make(GetParam(), 0.3, 1);
+  const GraphWorld world = Make(GetParam(), 0.3, 1);
   EXPECT_EQ(world.graph.ids.size(), 200u);
   EXPECT_EQ(world.graph.edges.size(), 299u);
   std::size_t num_wrong = 0;
@@ -65,9 +67,9 @@ TEST_P(PoseGraphWorld, IsWhatItSays) {
 }
 
 TEST_P(PoseGraphWorld, DependsOnTheSeedAlone) {
-  const World a = Make(GetParam(), 0.5, 3);
-  const World b = Make(GetParam(), 0.5, 3);
-  const World c = Make(GetParam(), 0.5, 4);
+  const GraphWorld a = Make(GetParam(), 0.5, 3);
+  const GraphWorld b = Make(GetParam(), 0.5, 3);
+  const GraphWorld c = Make(GetParam(), 0.5, 4);
   EXPECT_EQ(a.graph.edges[250].from_from_to.translation,
             b.graph.edges[250].from_from_to.translation);
   EXPECT_NE(a.graph.edges[250].from_from_to.translation,
@@ -76,7 +78,7 @@ TEST_P(PoseGraphWorld, DependsOnTheSeedAlone) {
 
 // Without noise the truth has no cost, and the start has.
 TEST_P(PoseGraphWorld, WithoutNoiseTheTruthIsTheAnswer) {
-  World world = Make(GetParam(), 0.0, 5);
+  GraphWorld world = Make(GetParam(), 0.0, 5);
   for (PoseEdge& edge : world.graph.edges) {
     edge.from_from_to = Inverse(world.true_world_from_pose[edge.from]) *
                         world.true_world_from_pose[edge.to];
@@ -95,7 +97,7 @@ TEST_P(PoseGraphWorld, WithoutNoiseTheTruthIsTheAnswer) {
 
 TEST_P(PoseGraphWorld, HalfOfTheLoopsWrongChangeNothing) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    World world = Make(GetParam(), 0.5, seed);
+    GraphWorld world = Make(GetParam(), 0.5, seed);
     PoseGraph clean = WithoutWrongLoops(world);
     ASSERT_TRUE(SolvePoseGraph(With(LoopLoss::kNone), &clean).is_usable);
 
@@ -119,7 +121,7 @@ TEST_P(PoseGraphWorld, HalfOfTheLoopsWrongChangeNothing) {
 }
 
 TEST_P(PoseGraphWorld, AnswerDoesNotDependOnTheOrderOfLoops) {
-  World world = Make(GetParam(), 0.5, 7);
+  GraphWorld world = Make(GetParam(), 0.5, 7);
   PoseGraph turned = world.graph;
   std::reverse(turned.edges.begin(), turned.edges.end());
   ASSERT_TRUE(SolvePoseGraph(With(LoopLoss::kGnc), &world.graph).is_usable);
@@ -178,9 +180,10 @@ TEST(PoseGraphProblemTest, HalfTurnsAreNoJump) {
 }
 
 TEST(PoseGraphWorldOptions, ErrorNamesTheFieldThatIsOutOfRange) {
-  const auto expect_error = [](const WorldOptions& options, const char* what) {
+  const auto expect_error = [](const GraphWorldOptions& options,
+                               const char* what) {
     std::string error;
-    EXPECT_FALSE(MakeWorld(options, &error).has_value()) << what;
+    EXPECT_FALSE(MakeGraphWorld(options, &error).has_value()) << what;
     EXPECT_THAT(error, HasSubstr(what));
   };
   expect_error({.world = "flat"}, "world = flat");
