@@ -146,6 +146,9 @@ def main(args):
                               formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="RESULTS.csv", nargs="+", help="of run_pairs.py")
     parser.add_argument("--picture", metavar="FILE.png", help="file for the two diagrams")
+    parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_apart",
+                        metavar="SET,SET", help="of places that have a twin, which matches alone "
+                        "cannot tell: left out of their model (default: %(default)s)")
     parser.add_argument("--threshold", type=float, default=0.9, metavar="P",
                         help="registered from this probability on (default: 0.9)")
     options = parser.parse_args(args)
@@ -157,8 +160,10 @@ def main(args):
           f"{sum(case.is_right for case in answered)} of these right")
     names = list(max((case.features for case in answered), key=len))
     models = []
+    twins = options.twins.split(",")
     for title, chosen in (("matches alone", names[:2]), ("matches and clouds", names)):
-        usable = [case for case in answered if all(name in case.features for name in chosen)]
+        usable = [case for case in answered if all(name in case.features for name in chosen)
+                  and (chosen is names or case.set not in twins)]
         fitted = [case for case in usable if not case.is_reported]
         reported = [case for case in usable if case.is_reported]
         w = fit(matrix(fitted, chosen), np.array([case.is_right for case in fitted], float))

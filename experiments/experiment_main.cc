@@ -15,8 +15,9 @@ DEFINE_string(protocol,
               "",
               "tims (yaw from differences, 95-99 % outliers), degeneracy (1-5 "
               "true matches), quasi_inliers (right in xy, wrong in z), sizes "
-              "(a thousand to a million matches) or surrogates (numbers for "
-              "draw_surrogates.py). Required");
+              "(a thousand to a million matches), slopes (tilts of 2-15 deg "
+              "with an INS) or surrogates (numbers for draw_surrogates.py). "
+              "Required");
 DEFINE_int32(seeds, 20, "Problems of each kind");
 DEFINE_int64(max_matches, 1000000, "The largest problem of protocol sizes");
 DEFINE_int32(threads, 0, "0: one per core. Results do not depend on it");
@@ -60,11 +61,13 @@ int main(int argc, char** argv) {
   } else if (FLAGS_protocol == "sizes") {
     table = quatro::RunSizeProtocol(
         FLAGS_seeds, FLAGS_max_matches, FLAGS_threads, progress);
+  } else if (FLAGS_protocol == "slopes") {
+    table = quatro::RunSlopeProtocol(FLAGS_seeds, progress);
   } else if (FLAGS_protocol == "surrogates") {
     table = quatro::TabulateSurrogates();
   } else {
     return Fail("--protocol=" + FLAGS_protocol +
-                ", must be tims, degeneracy, quasi_inliers, sizes "
+                ", must be tims, degeneracy, quasi_inliers, sizes, slopes "
                 "or surrogates");
   }
   std::fputs(quatro::FormatTable(table).c_str(), stdout);

@@ -223,7 +223,15 @@ std::vector<std::string> Advice(const Json& report) {
         "on one line; larger radii or scans that share more would add others");
   }
   const Json evidence = At(report, {"evidence"});
-  if (NumberOr(At(evidence, {"rival", "margin"}), 9.0) < 2.0) {
+  const Json alarms = At(evidence, {"false_alarms"});
+  const bool is_accidental =
+      !alarms.empty() &&
+      alarms.back()["log10_false_alarms"].get<double>() > -3.0;
+  if (is_accidental) {
+    advice.push_back(
+        "no consensus stands out from chance: the scans share no place, or the "
+        "matches are too poor; scans nearer to each other, or other radii");
+  } else if (NumberOr(At(evidence, {"rival", "margin"}), 9.0) < 2.0) {
     advice.push_back(
         "another pose has nearly as many matches: the place is symmetric or "
         "repeats itself, or the matches lie at one place; a rough guess of the "

@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "experiments/methods.h"
-
 namespace quatro {
 namespace {
 
@@ -119,27 +117,6 @@ std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
   }
   ins.up = *up / length;
   return ins;
-}
-
-PoseSolver MakeSolverWithIns(const std::string& method,
-                             const QuatroOptions& options,
-                             const InsOptions& ins,
-                             std::string* error) {
-  PoseSolver plain = MakeSolver(method, options, error);
-  const bool is_up_z = ins.up == Eigen::Vector3d::UnitZ();
-  if (!plain || (ins.mode == InsMode::kNone && is_up_z)) return plain;
-  if (!ins.IsValid(error)) return nullptr;
-  QuatroOptions quatro = options;
-  if (method == "quatro_exact") {
-    quatro.yaw_solver = YawSolver::kExact;
-  } else if (method != "quatro") {
-    *error = std::string(is_up_z ? "--ins_mode" : "--gravity") +
-             " needs --method=quatro or quatro_exact, not " + method;
-    return nullptr;
-  }
-  return [quatro, ins](const PointsRef& source, const PointsRef& target) {
-    return SolveQuatroWithIns(source, target, quatro, ins);
-  };
 }
 
 Json DescribeOptions(const InsOptions& ins) {

@@ -10,8 +10,6 @@
 
 #include "experiments/json_report.h"
 #include "robust/ins.h"
-#include "robust/quatro.h"
-#include "robust/registration.h"
 
 namespace quatro {
 
@@ -29,13 +27,6 @@ struct InsFlags {
 // must be given if the mode needs them, and neither if it does not.
 std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
                                         std::string* error);
-
-// As MakeSolver(); where the INS or the axis has a say, of `quatro` and
-// `quatro_exact` alone.
-PoseSolver MakeSolverWithIns(const std::string& method,
-                             const QuatroOptions& options,
-                             const InsOptions& ins,
-                             std::string* error);
 
 Json DescribeOptions(const InsOptions& ins);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "solvers/rigid3.h"
 
@@ -79,6 +80,14 @@ Json Rows(const Rigid3& motion) {
   return rows;
 }
 
+Json Rows(const Matrix6& matrix) {
+  Json rows = Json::array();
+  for (const auto row : matrix.rowwise()) {
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return rows;
+}
+
 Json OrNull(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
@@ -103,12 +112,14 @@ Json Describe(const GeometricEvidence& evidence) {
   return {
       {"structure_overlap", evidence.structure_overlap},
       {"median_residual_voxels", evidence.median_residual},
-      {"contradicted_share", OrNull(evidence.contradicted_share)},
-      {"contradicted", evidence.num_contradicted},
+      {"contradicted_share", OrNull(evidence.free_space.ContradictedShare())},
+      {"contradicted", evidence.free_space.num_contradicted},
       {"weakest_share", evidence.weakest_share},
       {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
       {"coarse_overlap", rival.overlap},
       {"rival_overlap", rival.rival_overlap},
+      {"rival_contradicted_share",
+       OrNull(evidence.rival_free_space.ContradictedShare())},
       {"rival_yaw_deg", rival.yaw * 180.0 / M_PI},
       {"rival_shift_m", {rival.shift.x(), rival.shift.y(), rival.shift.z()}},
       {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
@@ -134,6 +145,57 @@ Json DescribeEvidence(const Verdict& verdict) {
   }
   evidence["features"] = features;
   return evidence;
+}
+
+const char* Name(NotHeld reason) {
+  switch (reason) {
+    case NotHeld::kNoData:
+      return "no_data";
+    case NotHeld::kWithinNoise:
+      return "within_noise";
+    case NotHeld::kUncertain:
+      return "uncertain";
+    case NotHeld::kAssumed:
+      return "assumed";
+    case NotHeld::kNoSurface:
+      break;
+  }
+  return "no_surface";
+}
+
+Json Describe(const UnheldDirection& direction) {
+  const Eigen::Vector3d& a = direction.axis;
+  const Eigen::Vector3d& p = direction.point;
+  const bool is_rotation = direction.freedom == Freedom::kRotation;
+  return {{"freedom", is_rotation ? "rotation" : "translation"},
+          {"reason", Name(direction.reason)},
+          {"axis", {a.x(), a.y(), a.z()}},
+          {"point", is_rotation ? Json({p.x(), p.y(), p.z()}) : Json(nullptr)},
+          {"standard_deviation", OrNull(direction.standard_deviation)},
+          {"text", direction.Describe()}};
+}
+
+// `covariance`, `unheld_directions`, and what they rest on.
+void AddUncertainty(const std::optional<PoseCovariance>& uncertainty,
+                    Json* report) {
+  (*report)["covariance"] = nullptr;
+  (*report)["covariance_about"] = nullptr;  // The same about the inliers.
+  (*report)["unheld_directions"] = Json::array();
+  (*report)["match_sigma"] = nullptr;
+  if (!uncertainty) return;
+  if (uncertainty->covariance) {
+    (*report)["covariance"] = Rows(*uncertainty->covariance);
+    const Eigen::Vector3d& c = uncertainty->center;
+    (*report)["covariance_about"] = {
+        {"center", {c.x(), c.y(), c.z()}},
+        {"covariance", Rows(*uncertainty->covariance_at_center)}};
+  }
+  for (const UnheldDirection& direction : uncertainty->unheld) {
+    (*report)["unheld_directions"].push_back(Describe(direction));
+  }
+  (*report)["match_sigma"] = {
+      {"assumed", uncertainty->sigma},
+      {"from_residuals", OrNull(uncertainty->estimated_sigma)}};
 }
 
 // Microseconds are as fine as a clock is believed.
@@ -170,7 +232,7 @@ Json MakeReport(const std::string& method,
                       {"translation_inliers", solution.num_translation_inliers},
                       {"agreeing", verdict.num_agreeing}};
   report["evidence"] = DescribeEvidence(verdict);
-  report["covariance"] = nullptr;
+  AddUncertainty(solution.covariance, &report);
   report["certificate"] = Describe(solution.certificate);
   if (solution.crosscheck) {
     report["crosscheck"] = {
@@ -192,6 +254,32 @@ Json MakeReport(const std::string& method,
   }
   report["method"] = method;
   return report;
+}
+
+Json Describe(const std::optional<StructureHold>& hold) {
+  if (!hold) return nullptr;
+  const Eigen::Vector3d& axis = hold->weakest_level_axis;
+  return {{"points_met", hold->num_met},
+          {"structure_met", hold->num_structure},
+          {"weakest_level_axis", {axis.x(), axis.y(), axis.z()}},
+          {"weakest_level_share", hold->weakest_level_share}};
+}
+
+Json DescribeRefinement(const std::optional<RefinementSummary>& refinement) {
+  if (!refinement) return nullptr;
+  const AlignmentSummary& alignment = refinement->alignment;
+  return {{"method", RefinementName(refinement->method)},
+          {"accepted", refinement->is_accepted},
+          {"message", refinement->message},
+          {"termination", TerminationName(alignment.termination)},
+          {"iterations", alignment.iterations.size()},
+          {"inliers", alignment.num_inliers},
+          {"moved_m", refinement->moved_translation},
+          {"moved_deg", refinement->moved_rotation * 180.0 / M_PI},
+          {"cost", alignment.cost},
+          {"conditioning", alignment.conditioning},
+          {"unrefined_target_from_source",
+           Rows(refinement->unrefined_target_from_source)}};
 }
 
 Json DescribeOptions(const QuatroOptions& options) {

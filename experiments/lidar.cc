@@ -87,6 +87,11 @@ bool LidarOptions::IsValid(std::string* error) const {
   } else if (steep != elevations.end()) {
     problem << "elevations[" << steep - elevations.begin() << "] = " << *steep
             << ", must be within +-pi/2";
+  } else if (!azimuth_offsets.empty() &&
+             azimuth_offsets.size() != elevations.size()) {
+    problem << "azimuth_offsets has " << azimuth_offsets.size()
+            << " numbers, must have none or one per beam, "
+            << elevations.size();
   } else if (num_columns < 1) {
     problem << "num_columns = " << num_columns << ", must be >= 1";
   } else if (!(min_range >= 0.0)) {
@@ -160,19 +165,32 @@ LidarScene::~LidarScene() {
 PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
                             const LidarOptions& options,
                             const ScanId& id,
-                            int num_threads) const {
+                            int num_threads,
+                            const Sweep& sweep,
+                            const LidarScene* others) const {
   const auto num_columns = static_cast<size_t>(options.num_columns);
   const double phase = RayNoise(id, kNoRay).Uniform(kPhase);
-  const Eigen::Vector3f origin = world_from_sensor.translation.cast<float>();
+  const auto pose_at = [&](double fraction) -> Rigid3 {
+    if (sweep.IsStill()) return world_from_sensor;
+    const Vector3d turn = (fraction - 0.5) * sweep.turn;  // Equation (3).
+    const Eigen::AngleAxisd rotation(turn.norm(), turn.stableNormalized());
+    return {world_from_sensor.rotation * rotation.toRotationMatrix(),
+            world_from_sensor.translation + (fraction - 0.5) * sweep.velocity};
+  };
 
   const auto cast = [&](size_t beam, size_t column) -> Echo {
     const double elevation = options.elevations[beam];
-    const double azimuth = -2.0 * M_PI * (static_cast<double>(column) + phase) /
-                           static_cast<double>(num_columns);
+    const double turned = 2.0 * M_PI * (static_cast<double>(column) + phase) /
+                          static_cast<double>(num_columns);
+    const double azimuth = options.azimuth_offsets.empty()
+                               ? -turned
+                               : options.azimuth_offsets[beam] - turned;
     const Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                              std::cos(elevation) * std::sin(azimuth),
                              std::sin(elevation));  // Equation (1).
-    const Vector3d direction_in_world = world_from_sensor.rotation * direction;
+    const Rigid3 pose = pose_at(turned / (2.0 * M_PI));
+    const Eigen::Vector3f origin = pose.translation.cast<float>();
+    const Vector3d direction_in_world = pose.rotation * direction;
 
     RTCRayHit hit = {};
     hit.ray.org_x = origin.x();
@@ -188,6 +206,12 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene_, &context, &hit);
+    const LidarScene* seen = this;
+    if (others != nullptr) {
+      const float behind = hit.ray.tfar;
+      rtcIntersect1(others->scene_, &context, &hit);
+      if (hit.ray.tfar < behind) seen = others;
+    }
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
 
     const Vector3d normal(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z);
@@ -195,7 +219,7 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
         std::min(1.0,
                  std::abs(normal.dot(direction_in_world)) /
                      std::max(normal.norm(), 1e-12));
-    const double reflectance = reflectances_[hit.hit.primID];
+    const double reflectance = seen->reflectances_[hit.hit.primID];
     const double range = hit.ray.tfar;
     if (range < options.min_range) return {};
     const RayNoise noise(id, beam * num_columns + column);

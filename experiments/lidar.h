@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A spinning lidar that stands still while it turns once.
+// A spinning lidar that turns once, standing still or moving evenly.
 //
 // Beam b and column c look along
 //
 //   d = (cos e cos a, cos e sin a, sin e),   e = elevation[b],
-//   a = -2 pi (c + phase) / num_columns,     phase in [0, 1) of the frame, (1)
+//   a = offset[b] - 2 pi (c + phase) / num_columns,                      (1)
+//
+// phase in [0, 1) of the frame,
 //
 // and measure d (r + n), with r the distance to the first triangle on the ray
 // and n ~ N(0, range_sigma^2). An echo is missed with probability
@@ -41,11 +43,12 @@ std::vector<double> Hdl64Elevations();
 
 struct LidarOptions {
   std::vector<double> elevations = Hdl64Elevations();  // [rad]
-  int num_columns = 2083;      // Per turn: one each 0.1728 deg.
-  double min_range = 0.9;      // [m]
-  double max_range = 120.0;    // [m]
-  double range_sigma = 0.02;   // [m]
-  double dropout_rate = 0.05;  // Echoes missed however good they are.
+  std::vector<double> azimuth_offsets;  // Of each beam [rad]; empty: all 0.
+  int num_columns = 2083;               // Per turn: one each 0.1728 deg.
+  double min_range = 0.9;               // [m]
+  double max_range = 120.0;             // [m]
+  double range_sigma = 0.02;            // [m]
+  double dropout_rate = 0.05;           // Echoes missed however good they are.
 
   bool IsValid(std::string* error) const;
 };
@@ -54,6 +57,19 @@ struct LidarOptions {
 struct ScanId {
   uint64_t seed = 1;
   uint64_t frame = 0;
+};
+
+// How the sensor moves while it turns once. Points stay in the frame of the
+// sensor at their own moment, as they are measured: column c of n is seen from
+//
+//   R exp((f - 1/2) turn),  t + (f - 1/2) velocity,   f = (c + phase) / n,  (3)
+//
+// with (R, t) the pose in the middle of the turn.
+struct Sweep {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // In the world [m].
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();      // Of the sensor [rad].
+
+  bool IsStill() const { return velocity.isZero(0.0) && turn.isZero(0.0); }
 };
 
 // A scene made ready for ray casting by Embree.
@@ -68,11 +84,13 @@ class LidarScene {
 
   // Points in the sensor frame (x forward, y left, z up) with intensities in
   // [0, 1], beam by beam. `options` must be valid; num_threads 0 is all there
-  // are.
+  // are. `others`, if given, is in the same world.
   PointCloud Scan(const Rigid3& world_from_sensor,
                   const LidarOptions& options,
                   const ScanId& id,
-                  int num_threads) const;
+                  int num_threads,
+                  const Sweep& sweep = {},
+                  const LidarScene* others = nullptr) const;
 
  private:
   LidarScene() = default;

@@ -3,7 +3,13 @@
 
 #include "experiments/methods.h"
 
+#ifdef QUATRO_WITH_OPEN3D
+#include "experiments/peers/open3d.h"
+#endif
 #include "robust/arc_consensus.h"
+#include "robust/fgr.h"
+#include "robust/local_registration.h"
+#include "robust/ransac.h"
 #include "robust/teaser.h"
 
 namespace quatro {
@@ -45,6 +51,28 @@ PoseSolver MakeTeaser(const QuatroOptions& options) {
   };
 }
 
+PoseSolver MakeRansac(const QuatroOptions& options,
+                      std::int64_t max_iterations) {
+  RansacOptions ransac;
+  ransac.minimal.noise_bound = options.noise_bound;
+  ransac.minimal.max_tilt = options.max_tilt;
+  ransac.max_iterations = max_iterations;
+  ransac.seed = options.seed;
+  ransac.num_threads = options.num_threads;
+  return [ransac](const PointsRef& source, const PointsRef& target) {
+    return SolveRansac(source, target, ransac);
+  };
+}
+
+PoseSolver MakeFgr(const QuatroOptions& options) {
+  FgrOptions fgr;
+  fgr.noise_bound = options.noise_bound;
+  fgr.num_threads = options.num_threads;
+  return [fgr](const PointsRef& source, const PointsRef& target) {
+    return SolveFgr(source, target, fgr);
+  };
+}
+
 PoseSolver MakeAuto(const QuatroOptions& options) {
   const PoseSolver few = MakeQuatro(options);
   const PoseSolver many = MakeArcConsensus(options);
@@ -53,31 +81,143 @@ PoseSolver MakeAuto(const QuatroOptions& options) {
   };
 }
 
+#ifdef QUATRO_WITH_OPEN3D
+PoseSolver MakeOpen3dFgr(const QuatroOptions& options) {
+  Open3dFgrOptions fgr;
+  fgr.seed = options.seed;
+  return [fgr, bound = options.noise_bound](const PointsRef& source,
+                                            const PointsRef& target) {
+    return SolveByOpen3dFgr(source, target, bound, fgr);
+  };
+}
+
+PoseSolver MakeOpen3dRansac(const QuatroOptions& options) {
+  Open3dRansacOptions ransac;
+  ransac.seed = options.seed;
+  return [ransac, bound = options.noise_bound](const PointsRef& source,
+                                               const PointsRef& target) {
+    return SolveByOpen3dRansac(source, target, bound, ransac);
+  };
+}
+#endif
+
+RegistrationSummary RegisterCoarseToFine(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) {
+  RegistrationOptions c2f = options;
+  c2f.solver = MakeQuatro(options.quatro);
+  c2f.refinement.method = RefinementMethod::kGicp;
+  return Register(source, target, c2f);
+}
+
+// From no motion as the guess.
+template <RefinementMethod method>
+RegistrationSummary RegisterFromIdentity(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) {
+  RegistrationOptions local = options;
+  local.refinement.method = method;
+  return RegisterLocally(source, target, Rigid3(), local);
+}
+
+enum class Ins { kRefused, kTaken, kNeeded };
+
+// From matches, `make`, or else from clouds, `register_clouds`.
 struct Method {
   const char* name;
   const char* description;
   PoseSolver (*make)(const QuatroOptions& options);
+  Ins ins = Ins::kRefused;
+  RegistrationSummary (*register_clouds)(const PointCloud& source,
+                                         const PointCloud& target,
+                                         const RegistrationOptions& options) =
+      nullptr;
 };
 
 constexpr Method kMethods[] = {
-    {"auto", "quatro; above 20,000 matches arc_consensus", MakeAuto},
-    {"quatro", "clique, yaw by GNC, translation by axis", MakeQuatro},
+    {"auto",
+     "quatro; above 20,000 matches arc_consensus",
+     MakeAuto,
+     Ins::kTaken},
+    {"quatro",
+     "clique, yaw by GNC, translation by axis",
+     MakeQuatro,
+     Ins::kTaken},
     {"quatro_exact",
      "the same with the yaw's global optimum in place of GNC",
-     [](const QuatroOptions& options) { return MakeQuatroExact(options); }},
+     [](const QuatroOptions& options) { return MakeQuatroExact(options); },
+     Ins::kTaken},
+    {"quatro_ins",
+     "quatro with roll and pitch of an INS, which must be given",
+     MakeQuatro,
+     Ins::kNeeded},
     {"arc_consensus",
      "no graph: random pairs, exact yaw, translation by axis",
-     MakeArcConsensus},
+     MakeArcConsensus,
+     Ins::kTaken},
     {"teaser",
      "TEASER++: exact clique, SO(3) by GNC, translation by axis",
      MakeTeaser},
+    {"fgr", "FGR: SE(3) by a line process, mu falling", MakeFgr},
+    {"ransac1k",
+     "RANSAC: three points, 1,000 samples at most",
+     [](const QuatroOptions& options) { return MakeRansac(options, 1000); }},
+    {"ransac10k",
+     "RANSAC: three points, 10,000 samples at most",
+     [](const QuatroOptions& options) { return MakeRansac(options, 10'000); }},
+#ifdef QUATRO_WITH_OPEN3D
+    {"open3d_fgr", "FGR of Open3D, the same matches", MakeOpen3dFgr},
+    {"open3d_ransac",
+     "RANSAC of Open3D, 10,000 samples at most",
+     MakeOpen3dRansac},
+#endif
+    {"quatro_c2f",
+     "clouds: quatro, then G-ICP from its pose",
+     nullptr,
+     Ins::kRefused,
+     RegisterCoarseToFine},
+    {"icp",
+     "clouds: point to point from no motion",
+     nullptr,
+     Ins::kRefused,
+     RegisterFromIdentity<RefinementMethod::kIcp>},
+    {"gicp",
+     "clouds: plane to plane from no motion",
+     nullptr,
+     Ins::kRefused,
+     RegisterFromIdentity<RefinementMethod::kGicp>},
+    {"vgicp",
+     "clouds: plane to voxels' planes from no motion",
+     nullptr,
+     Ins::kRefused,
+     RegisterFromIdentity<RefinementMethod::kVgicp>},
 };
+
+// The names of the methods that take an INS: "auto, quatro, ...".
+std::string NamesThatTakeIns() {
+  std::string names;
+  for (const Method& method : kMethods) {
+    if (method.ins == Ins::kRefused) continue;
+    names += (names.empty() ? "" : ", ") + std::string(method.name);
+  }
+  return names;
+}
 
 }  // namespace
 
 std::vector<std::string> MethodNames() {
   std::vector<std::string> names;
-  for (const Method& method : kMethods) names.emplace_back(method.name);
+  for (const Method& method : kMethods) {
+    if (method.make) names.emplace_back(method.name);
+  }
+  return names;
+}
+
+std::vector<std::string> CloudMethodNames() {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) {
+    if (method.register_clouds) names.emplace_back(method.name);
+  }
   return names;
 }
 
@@ -91,17 +231,78 @@ std::string DescribeMethods() {
   return text;
 }
 
-PoseSolver MakeSolver(const std::string& name,
-                      const QuatroOptions& options,
-                      std::string* error) {
+PoseSolver MakeLevelSolver(const std::string& name,
+                           const QuatroOptions& options,
+                           const InsOptions& ins,
+                           std::string* error) {
   for (const Method& method : kMethods) {
-    if (name == method.name) return method.make(options);
+    if (name != method.name) continue;
+    if (!method.make) {
+      *error = "--method=" + name + " works on clouds, not on matches";
+      return nullptr;
+    }
+    if (!ins.IsValid(error)) return nullptr;
+    if (method.ins == Ins::kNeeded && ins.mode == InsMode::kNone) {
+      *error = "--method=" + name +
+               " needs an INS: --ins_mode=relative, leveled or fused, "
+               "--source_rpy_deg and --target_rpy_deg";
+      return nullptr;
+    }
+    if (method.ins == Ins::kRefused && !ins.IsPlain()) {
+      *error =
+          std::string(ins.mode == InsMode::kNone ? "--gravity" : "--ins_mode") +
+          " needs one of --method=" + NamesThatTakeIns() + ", not " + name;
+      return nullptr;
+    }
+    return method.make(options);
   }
   *error = "--method=" + name + ", must be one of";
   for (const Method& method : kMethods) {
     *error += std::string(" ") + method.name;
   }
   return nullptr;
+}
+
+PoseSolver MakeSolver(const std::string& name,
+                      const QuatroOptions& options,
+                      const InsOptions& ins,
+                      std::string* error) {
+  PoseSolver solver = MakeLevelSolver(name, options, ins, error);
+  if (!solver || ins.IsPlain()) return solver;
+  return [solver, bound = options.noise_bound, ins](const PointsRef& source,
+                                                    const PointsRef& target) {
+    return SolveWithIns(source, target, solver, bound, ins);
+  };
+}
+
+PoseSolver MakeSolver(const std::string& name,
+                      const QuatroOptions& options,
+                      std::string* error) {
+  return MakeSolver(name, options, InsOptions(), error);
+}
+
+CloudSolver FindCloudSolver(const std::string& name) {
+  for (const Method& method : kMethods) {
+    if (name == method.name && method.register_clouds) {
+      return method.register_clouds;
+    }
+  }
+  return nullptr;
+}
+
+bool ParseRefinement(const std::string& text,
+                     RefinementMethod* method,
+                     std::string* error) {
+  for (const RefinementMethod known : {RefinementMethod::kNone,
+                                       RefinementMethod::kIcp,
+                                       RefinementMethod::kGicp,
+                                       RefinementMethod::kVgicp}) {
+    if (text != RefinementName(known)) continue;
+    *method = known;
+    return true;
+  }
+  *error = "--refine=" + text + ", must be none, icp, gicp or vgicp";
+  return false;
 }
 
 bool ApplySwitch(const std::string& flag,

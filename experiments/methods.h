@@ -1,30 +1,64 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The registry of estimators from matched points: a name, a description and a
-// solver each. A new one is a line in methods.cc and then known to all
-// programs.
+// The registry of estimators: a name, a description and a solver each, from
+// matched points or from clouds. A new one is a line in methods.cc and then
+// known to all programs.
 
 #ifndef QUATRO_EXPERIMENTS_METHODS_H_
 #define QUATRO_EXPERIMENTS_METHODS_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "features/point_cloud.h"
+#include "robust/ins.h"
 #include "robust/quatro.h"
+#include "robust/refinement.h"
 #include "robust/registration.h"
 
 namespace quatro {
 
-std::vector<std::string> MethodNames();
+std::vector<std::string> MethodNames();       // From matched points.
+std::vector<std::string> CloudMethodNames();  // From clouds.
 
 // One line a method, its name and what it does.
 std::string DescribeMethods();
 
 // The method with noise bound, seed, threads and all else that applies to it
-// from `options`. Empty, with *error set, for a name that is not known.
+// from `options`. Empty, with *error set, for a name that is not known, for a
+// method that works on clouds, and for quatro_ins, which needs an INS.
 PoseSolver MakeSolver(const std::string& name,
                       const QuatroOptions& options,
                       std::string* error);
+
+// The same in the level frames of `ins`. Empty, too, for a method that finds
+// roll and pitch by itself and has no use for an INS.
+PoseSolver MakeSolver(const std::string& name,
+                      const QuatroOptions& options,
+                      const InsOptions& ins,
+                      std::string* error);
+
+// The same for RegistrationOptions::solver beside this `ins`: it leaves the
+// turning of the matches to Register().
+PoseSolver MakeLevelSolver(const std::string& name,
+                           const QuatroOptions& options,
+                           const InsOptions& ins,
+                           std::string* error);
+
+using CloudSolver =
+    std::function<RegistrationSummary(const PointCloud& source,
+                                      const PointCloud& target,
+                                      const RegistrationOptions& options)>;
+
+// The method that works on clouds; empty if there is none of this name.
+CloudSolver FindCloudSolver(const std::string& name);
+
+// Sets *method by a flag's text: "none", "icp", "gicp" or "vgicp". For any
+// other text returns false and sets *error.
+bool ParseRefinement(const std::string& text,
+                     RefinementMethod* method,
+                     std::string* error);
 
 // Sets *option by a flag's text: "on", "off", or empty for no change. For any
 // other text returns false and sets *error, which names the flag.

@@ -36,6 +36,10 @@ DEFINE_string(recover,
 DEFINE_string(polish,
               "",
               "Roll and pitch on the inliers: on or off; empty: the preset's");
+DEFINE_string(refine,
+              "none",
+              "Local registration from the pose found: none, icp, gicp or "
+              "vgicp");
 DEFINE_string(ins_mode,
               "none",
               "Roll and pitch from an INS: none, relative, leveled or fused");
@@ -127,9 +131,24 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
           "polish", FLAGS_polish, &options->quatro.polish, error)) {
     return std::nullopt;
   }
+  if (!quatro::ParseRefinement(
+          FLAGS_refine, &options->refinement.method, error)) {
+    return std::nullopt;
+  }
   if (!options->IsValid(error)) return std::nullopt;
+  options->ins = ins;
+  if (quatro::FindCloudSolver(FLAGS_method)) {
+    const char* unused = nullptr;
+    if (FLAGS_refine != "none") unused = "refine";
+    if (ins.up != Eigen::Vector3d::UnitZ()) unused = "gravity";
+    if (ins.mode != quatro::InsMode::kNone) unused = "ins_mode";
+    if (unused == nullptr) return options;
+    *error = std::string("--") + unused +
+             " does not go with --method=" + FLAGS_method;
+    return std::nullopt;
+  }
   options->solver =
-      quatro::MakeSolverWithIns(FLAGS_method, options->quatro, ins, error);
+      quatro::MakeLevelSolver(FLAGS_method, options->quatro, ins, error);
   if (!options->solver) return std::nullopt;
   return options;
 }
@@ -174,8 +193,11 @@ int main(int argc, char** argv) {
         stderr, "%-12s %9.1f ms\n", time.stage.c_str(), time.seconds * 1e3);
   };
 
+  const quatro::CloudSolver cloud_solver =
+      quatro::FindCloudSolver(FLAGS_method);
   const quatro::RegistrationSummary summary =
-      quatro::Register(*source, *target, *options);
+      (cloud_solver ? cloud_solver : quatro::Register)(
+          *source, *target, *options);
   if (!summary.error.empty()) return Fail(summary.error);
 
   quatro::Json report = quatro::MakeReport(FLAGS_method,
@@ -191,6 +213,8 @@ int main(int argc, char** argv) {
                    {"target_dropped", target->num_dropped},
                    {"target_voxels", summary.num_target_voxels},
                    {"mutual_matches", summary.num_mutual_matches}});
+  report["structure_hold"] = quatro::Describe(summary.structure_hold);
+  report["refinement"] = quatro::DescribeRefinement(summary.refinement);
   report["parameters"] = {{"source", FLAGS_source},
                           {"target", FLAGS_target},
                           {"preset", FLAGS_preset}};

@@ -35,6 +35,13 @@ bool RoadOptions::IsValid(std::string* error) const {
     problem << "length = " << length << ", must be in [50, 20000]";
   } else if (!(std::abs(slope) <= 0.35)) {
     problem << "slope = " << slope << ", must be within +-0.35";
+  } else if (!(curve_end > curve_begin)) {
+    problem << "curve_end = " << curve_end
+            << ", must be > curve_begin = " << curve_begin;
+  } else if (!(std::abs(curve_climb) <= 0.35)) {
+    problem << "curve_climb = " << curve_climb << ", must be within +-0.35";
+  } else if (!(std::abs(curve_bank) <= 0.15)) {
+    problem << "curve_bank = " << curve_bank << ", must be within +-0.15";
   } else if (!(undulation >= 0.0 && undulation <= 0.5)) {
     problem << "undulation = " << undulation << ", must be in [0, 0.5]";
   } else if (!(half_width >= 3.5 && half_width <= 8.0)) {
@@ -83,6 +90,7 @@ Road::Road(const RoadOptions& options) : options_(options) {
     if (kind < 0.65) side_streets_.push_back({s, width, 1});
     if (kind > 0.35) side_streets_.push_back({s, width, -1});
   }
+  if (options.crossing >= 0.0) AddCrossing();
   Vector2d point = Vector2d::Zero();
   for (double s = 0.0; s <= options.length + kAxisStep; s += kAxisStep) {
     axis_.push_back(point);
@@ -91,14 +99,28 @@ Road::Road(const RoadOptions& options) : options_(options) {
   }
 }
 
-bool Road::IsInSideStreet(double s, int side, double margin) const {
-  return std::any_of(side_streets_.begin(),
-                     side_streets_.end(),
-                     [&](const SideStreet& street) {
-                       return street.side == side &&
-                              std::abs(s - street.s) <
-                                  street.width / 2.0 + margin;
-                     });
+void Road::AddCrossing() {
+  constexpr double kWidth = 8.0, kAlone = 30.0;  // [m]
+  std::erase_if(side_streets_, [&](const SideStreet& street) {
+    return std::abs(street.s - options_.crossing) < kAlone;
+  });
+  const auto after = std::find_if(
+      side_streets_.begin(),
+      side_streets_.end(),
+      [&](const SideStreet& street) { return street.s > options_.crossing; });
+  side_streets_.insert(after,
+                       {SideStreet{options_.crossing, kWidth, 1},
+                        SideStreet{options_.crossing, kWidth, -1}});
+}
+
+double Road::Curve(double s, double d) const {
+  const double length = options_.curve_end - options_.curve_begin;
+  const double t = std::clamp((s - options_.curve_begin) / length, 0.0, 1.0);
+  const double past = std::max(0.0, s - options_.curve_end);
+  const double more_grade = std::tan(options_.slope + options_.curve_climb) -
+                            std::tan(options_.slope);
+  return more_grade * (length * t * t / 2.0 + past) +
+         std::tan(options_.curve_bank) * t * d;
 }
 
 double Road::Sum(const Waves& waves, double s, double d) {
@@ -127,7 +149,8 @@ double Road::Height(double s, double d) const {
   const double profile =
       -0.02 * on_road + raised * (kerb + 0.02 * on_pavement) +
       (side > 0 ? left_garden_slope_ : right_garden_slope_) * in_garden;
-  return std::tan(options_.slope) * s + Sum(ground_waves_, s, d) + profile;
+  return std::tan(options_.slope) * s + Curve(s, d) + Sum(ground_waves_, s, d) +
+         profile;
 }
 
 Vector3d Road::SurfacePoint(double s, double d) const {
@@ -139,24 +162,6 @@ Vector3d Road::SurfacePoint(double s, double d) const {
   const Vector2d normal(-std::sin(heading), std::cos(heading));
   const Vector2d xy = (1.0 - t) * axis_[i] + t * axis_[i + 1] + d * normal;
   return {xy.x(), xy.y(), Height(s, d)};
-}
-
-Rigid3 Road::WorldFromUpright(double s, double d) const {
-  return {RotationZ(Heading(s)), SurfacePoint(s, d)};
-}
-
-Rigid3 Road::WorldFromGround(double s, double d, double yaw) const {
-  constexpr double kHalfBase = 1.35, kHalfTrack = 0.75;  // Of a car [m].
-  const Vector3d ahead =
-      SurfacePoint(s + kHalfBase, d) - SurfacePoint(s - kHalfBase, d);
-  const Vector3d left =
-      SurfacePoint(s, d + kHalfTrack) - SurfacePoint(s, d - kHalfTrack);
-  const Vector3d x = ahead.normalized();
-  const Vector3d z = ahead.cross(left).normalized();
-  Rigid3 world_from_street;
-  world_from_street.rotation << x, z.cross(x), z;
-  world_from_street.translation = SurfacePoint(s, d);
-  return world_from_street * Rigid3{RotationZ(yaw), Vector3d::Zero()};
 }
 
 Rigid3 Road::WorldFromSensor(double s, double lateral, double yaw) const {

@@ -6,10 +6,12 @@
 // the axis, n(s) its normal to the left and h the ground,
 //
 //   x_in_world = ( c(s) + d n(s), h(s, d) ),                              (1)
-//   h = s tan(slope) + waves(s, d) + profile(s, d).
+//   h = s tan(slope) + curve(s, d) + waves(s, d) + profile(s, d).
 //
 // The axis curves gently, with a radius above 100 m. The profile has a crown,
-// kerbs (lowered in the mouths of side streets), pavements and gardens.
+// kerbs (lowered in the mouths of side streets), pavements and gardens. Between
+// curve_begin and curve_end the grade, d h / d s, and the bank, d h / d d,
+// change evenly, so that the road there is a parabola, as roads are built.
 
 #ifndef QUATRO_EXPERIMENTS_ROAD_H_
 #define QUATRO_EXPERIMENTS_ROAD_H_
@@ -19,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/street_axis.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -30,19 +33,25 @@ struct RoadOptions {
   double undulation = 0.05;  // Amplitude of the waves that are 40 m long [m].
   double half_width = 4.5;   // Of the carriageway with parked cars [m].
 
+  // A crest (climb < 0) or a sag: by how much the road climbs more [rad] past
+  // curve_end than before curve_begin [m], and how much more it falls to the
+  // right [rad].
+  double curve_begin = 0.0;
+  double curve_end = 1.0;
+  double curve_climb = 0.0;
+  double curve_bank = 0.0;
+
+  // Streets leave on both sides here [m], and none closer than 30 m; negative:
+  // wherever the seed has them.
+  double crossing = -1.0;
+
   // Standard deviation of a car's roll and pitch on its springs [rad].
   double tilt_sigma = 0.0052;
 
   bool IsValid(std::string* error) const;
 };
 
-struct SideStreet {
-  double s = 0.0;      // Of its axis [m].
-  double width = 8.0;  // [m]
-  int side = 1;        // +1 leaves to the left, -1 to the right.
-};
-
-class Road {
+class Road : public StreetAxis {
  public:
   static constexpr double kSensorHeight = 1.73;  // Above the ground [m].
   static constexpr double kLane = -1.0;          // d of a car that drives [m].
@@ -52,20 +61,14 @@ class Road {
   explicit Road(const RoadOptions& options);
 
   const RoadOptions& options() const { return options_; }
-  const std::vector<SideStreet>& side_streets() const { return side_streets_; }
+  double length() const override { return options_.length; }
+  double half_width() const override { return options_.half_width; }
+  const std::vector<SideStreet>& side_streets() const override {
+    return side_streets_;
+  }
 
-  // Within `margin` [m] of a side street's edges.
-  bool IsInSideStreet(double s, int side, double margin) const;
-
-  double Heading(double s) const;                          // [rad]
-  Eigen::Vector3d SurfacePoint(double s, double d) const;  // Equation (1).
-
-  // Origin on the ground, x along the street, z against gravity.
-  Rigid3 WorldFromUpright(double s, double d) const;
-
-  // Origin on the ground, z its normal over the footprint of a car, x along
-  // the street but for a turn by `yaw` [rad].
-  Rigid3 WorldFromGround(double s, double d, double yaw) const;
+  double Heading(double s) const override;
+  Eigen::Vector3d SurfacePoint(double s, double d) const override;  // (1)
 
   // Of a car that drives, `lateral` [m] to the left of its lane: origin in the
   // sensor, axes as WorldFromGround but for the springs.
@@ -79,6 +82,8 @@ class Road {
   using Waves = std::vector<Wave>;
 
   static double Sum(const Waves& waves, double s, double d);
+  void AddCrossing();
+  double Curve(double s, double d) const;
   double Height(double s, double d) const;
 
   RoadOptions options_;

@@ -44,7 +44,9 @@ SUCCESS = {"success_2m_10deg": (2.0, 10.0), "success_0.6m_5deg": (0.6, 5.0),
            "success_0.3m_1deg": (0.3, 1.0)}
 RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "yaw_error_deg",
                   "translation_error_m", *SUCCESS, "wrong_but_registered", *COUNTS, "total_ms",
-                  "probability", "features")
+                  "probability", "features", "stages_ms", "peak_mb")
+
+DEFAULT_PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build/bin/quatro_register"
 
 Pair = collections.namedtuple("Pair", "set source target pose")  # pose: (R, t) or None
 
@@ -129,20 +131,32 @@ def read_pairs(path, excluded):
 def register(pair, folder, program, flags):
     command = [program, f"--source={folder / pair.source}", f"--target={folder / pair.target}",
                *flags]
-    try:
-        run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                             check=False)
-    except OSError as error:
-        raise BadInput(f"{program}: {error.strerror}") from None
-    if run.returncode in (0, 1):
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
         try:
-            return json.loads(run.stdout)
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output,
+                                       stderr=errors)
+        except OSError as error:
+            raise BadInput(f"{program}: {error.strerror}") from None
+        try:
+            _, status, usage = os.wait4(process.pid, 0)
+        except BaseException:
+            process.kill()
+            raise
+        process.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        errors.seek(0)
+        stdout, stderr = output.read().decode(), errors.read().decode(errors="replace")
+    if process.returncode in (0, 1):
+        try:
+            report = json.loads(stdout)
         except json.JSONDecodeError:
             raise BadInput(f"{program}: its standard output is not JSON; "
                            "is there a --json among its flags?") from None
-    if run.returncode == 2:
-        raise BadInput((run.stderr.strip() or f"{program}: exit code 2").splitlines()[-1])
-    return {"status": f"crashed ({run.returncode})", "target_from_source": None}
+        report["peak_mb"] = round(usage.ru_maxrss / 1024.0, 1)  # Linux has kilobytes.
+        return report
+    if process.returncode == 2:
+        raise BadInput((stderr.strip() or f"{program}: exit code 2").splitlines()[-1])
+    return {"status": f"crashed ({process.returncode})", "target_from_source": None}
 
 
 def measure(pair, report):
@@ -152,6 +166,9 @@ def measure(pair, report):
     counts = report.get("counts", {})
     result.update({name: counts.get(name, "") for name in COUNTS})
     result["total_ms"] = report.get("timings_ms", {}).get("total", "")
+    result["stages_ms"] = ";".join(f"{stage}={time}" for stage, time
+                                   in report.get("timings_ms", {}).items() if stage != "total")
+    result["peak_mb"] = report.get("peak_mb", "")
     result["probability"] = report.get("probability", "")
     features = report.get("evidence", {}).get("features", {})
     result["features"] = ";".join(f"{name}={value:.6g}" for name, value in features.items())
@@ -171,6 +188,12 @@ def measure(pair, report):
             result[name] = int(translation_error <= metres and rotation_error <= degrees)
     result["wrong_but_registered"] = int(registered and not result["success_2m_10deg"])
     return result
+
+
+def describe_run(pairs, exclude, program, flags):
+    """What must be the same for a run to be gone on with."""
+    list_hash = hashlib.sha256(pathlib.Path(pairs).read_bytes()).hexdigest()
+    return [os.path.abspath(pairs), list_hash, exclude, os.path.abspath(program), flags]
 
 
 class Done:
@@ -296,8 +319,7 @@ def parse_args(args):
                     usage="run_pairs.py --pairs=FILE [options] [-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
     parser.add_argument("--output", metavar="FILE.csv", help="file for one line per pair")
-    default = pathlib.Path(__file__).resolve().parent.parent / "build" / "bin" / "quatro_register"
-    parser.add_argument("--program", default=str(default), metavar="FILE",
+    parser.add_argument("--program", default=str(DEFAULT_PROGRAM), metavar="FILE",
                         help="quatro_register (default: that in build/bin)")
     parser.add_argument("--exclude", action="append", default=[], metavar="SET",
                         help="leave out this set; may be repeated")
@@ -317,10 +339,8 @@ def main(args):
     pairs = read_pairs(options.pairs, options.exclude)
     if not os.access(options.program, os.X_OK) or os.path.isdir(options.program):
         raise BadInput(f"{options.program}: is not a program; build it or name it by --program")
-    list_hash = hashlib.sha256(pathlib.Path(options.pairs).read_bytes()).hexdigest()
-    run = [os.path.abspath(options.pairs), list_hash, options.exclude,
-           os.path.abspath(options.program), flags]
-    done = Done(options.output and options.output + ".part", run)
+    done = Done(options.output and options.output + ".part",
+                describe_run(options.pairs, options.exclude, options.program, flags))
     results = run_all(pairs, pathlib.Path(options.pairs).parent, options.program, flags,
                       int(options.jobs), done)
     if options.output:

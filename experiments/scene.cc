@@ -208,6 +208,19 @@ void Scene::AddFoliage(const Rigid3& world_from_foliage,
   }
 }
 
+void Scene::Append(const Scene& part, const Rigid3& world_from_part) {
+  const auto first = static_cast<uint32_t>(vertices.size());
+  for (const Eigen::Vector3f& vertex : part.vertices) {
+    const Vector3d moved = world_from_part * Vector3d(vertex.cast<double>());
+    vertices.push_back(moved.cast<float>());
+  }
+  for (const auto& [a, b, c] : part.triangles) {
+    triangles.push_back({first + a, first + b, first + c});
+  }
+  reflectances.insert(
+      reflectances.end(), part.reflectances.begin(), part.reflectances.end());
+}
+
 void Scene::AddSurface(
     const std::vector<double>& us,
     const std::vector<double>& vs,

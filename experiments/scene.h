@@ -83,6 +83,9 @@ struct Scene {
                   float reflectance,
                   Random& random);
 
+  // A copy of all that `part` holds.
+  void Append(const Scene& part, const Rigid3& world_from_part);
+
   // The surface point(u, v) over a grid of parameters.
   void AddSurface(
       const std::vector<double>& us,

@@ -1,17 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Scans of a simulated street with their true poses: in memory as a pair, or
-// on disk as a sequence in the layout of KITTI odometry:
-//
-//   velodyne/000000.bin ...   float32 x y z intensity, sensor frame [m]
-//   poses.txt                 P_i, 3x4 row by row: cam0 of frame i in cam0 of
-//                             frame 0
-//   calib.txt                 P0 .. P3, and Tr: sensor points into cam0
-//   times.txt                 [s], 10 Hz
-//
-// so that points of frame i are moved into frame j by
-//
-//   x_in_j = Tr^-1 P_j^-1 P_i Tr x_in_i.                                  (1)
+// on disk as a sequence (kitti_layout.h) without an INS.
 //
 // The sensor is the model of lidar.h on a car that follows the ground of
 // road.h. It does not move during a scan.

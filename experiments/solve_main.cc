@@ -17,6 +17,7 @@
 #include "experiments/picture.h"
 #include "experiments/program.h"
 #include "robust/presets.h"
+#include "robust/summary_covariance.h"
 #include "robust/verdict.h"
 
 DEFINE_string(correspondences,
@@ -136,13 +137,18 @@ int main(int argc, char** argv) {
   const auto ins = InsFromFlags(&error);
   if (!ins) return Fail(error);
   const quatro::PoseSolver solver =
-      quatro::MakeSolverWithIns(FLAGS_method, options->quatro, *ins, &error);
+      quatro::MakeSolver(FLAGS_method, options->quatro, *ins, &error);
   if (!solver) return Fail(error);
   const auto matches = quatro::ReadMatches(FLAGS_correspondences, &error);
   if (!matches) return Fail(error);
 
   quatro::Stopwatch stopwatch;
-  const quatro::PoseSummary summary = solver(matches->source, matches->target);
+  quatro::PoseSummary summary = solver(matches->source, matches->target);
+  quatro::AddCovariance(matches->source,
+                        matches->target,
+                        options->quatro.noise_bound,
+                        options->covariance,
+                        &summary);
   const double total_seconds = stopwatch.Lap();
   const quatro::Verdict verdict = quatro::Judge(matches->source,
                                                 matches->target,

@@ -17,23 +17,34 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kReach = 58.0;  // Largest |d| that is built [m].
-
 Rigid3 Turn(double yaw) { return {RotationZ(yaw), Vector3d::Zero()}; }
 
 // Lays out the street. Sides are +1 (left) and -1, e = |d| is a distance from
 // the axis. All draw from one generator: their order is part of the street.
 class StreetBuilder {
  public:
-  explicit StreetBuilder(const Road& road)
+  StreetBuilder(const StreetAxis& road, const StreetSides& sides, uint64_t seed)
       : road_(road),
-        length_(road.options().length),
-        kerb_(road.options().half_width),
+        sides_(sides),
+        length_(road.length()),
+        kerb_(road.half_width()),
         garden_(kerb_ + Road::kPavementWidth + 0.2),
-        random_(2 * road.options().seed + 1) {}
+        random_(2 * seed + 1) {}
 
   Scene Build() {
     AddGround();
+    AddSides();
+    for (const SideStreet& street : road_.side_streets()) AddSideStreet(street);
+    return std::move(scene_);
+  }
+
+  Scene BuildSides() {
+    AddSides();
+    return std::move(scene_);
+  }
+
+ private:
+  void AddSides() {
     for (const int side : {1, -1}) {
       AddLots(side);
       AddParkedCars(side);
@@ -41,11 +52,8 @@ class StreetBuilder {
       AddStreetTrees(side);
       AddBackdrop(side);
     }
-    for (const SideStreet& street : road_.side_streets()) AddSideStreet(street);
-    return std::move(scene_);
   }
 
- private:
   double Draw(double lower, double upper) {
     return Uniform(random_, lower, upper);
   }
@@ -59,7 +67,7 @@ class StreetBuilder {
   void AddGround() {
     std::vector<double> ss, ds;
     for (double s = 0.0; s <= length_; s += 0.5) ss.push_back(s);
-    for (double e = kReach; e > 14.0; e -= 1.5) ds.push_back(-e);
+    for (double e = sides_.reach; e > 14.0; e -= 1.5) ds.push_back(-e);
     for (double e = 14.0; e > kerb_ + 2.0; e -= 0.4) ds.push_back(-e);
     for (const double e : {2.0, 1.6, 1.0, 0.5, 0.03, 0.0, -0.7, -1.8, -2.9}) {
       ds.push_back(-kerb_ - e);
@@ -156,7 +164,7 @@ class StreetBuilder {
 
   // From s to `end`, without a break.
   void AddBlock(double s, double end, int side) {
-    const bool is_terrace = Chance(0.3);
+    const bool is_terrace = Chance(sides_.terrace);
     const double usual_setback = kerb_ + Draw(2.0, is_terrace ? 6.0 : 7.5);
     while (end - s > 7.0) {
       const double wish = is_terrace ? Draw(7.0, 13.0) : Draw(8.0, 14.0);
@@ -185,8 +193,8 @@ class StreetBuilder {
     double s = 0.0;
     for (const SideStreet& street : road_.side_streets()) {
       if (street.side != side) continue;
-      AddBlock(s, street.s - street.width / 2.0 - 1.0, side);
-      s = street.s + street.width / 2.0 + 1.0;
+      AddBlock(s, street.s - street.width / 2.0 - sides_.corner, side);
+      s = street.s + street.width / 2.0 + sides_.corner;
     }
     AddBlock(s, length_, side);
   }
@@ -210,16 +218,22 @@ class StreetBuilder {
 
   void AddStreetFurniture(int side) {
     const double edge = kerb_ + 0.35;
+    const auto is_taken = [&](double s) {
+      return sides_.clear_mouths && road_.IsInSideStreet(s, side, 1.0);
+    };
     for (double s = Draw(3.0, 25.0); s < length_; s += Draw(24.0, 34.0)) {
+      if (is_taken(s)) continue;
       scene_.AddCylinder(Facing(s, edge, side), 0.08, -0.5, 7.0, 0.5f);
     }
     for (double s = Draw(3.0, 25.0); s < length_; s += Draw(12.0, 40.0)) {
+      if (is_taken(s)) continue;
       const Rigid3 sign = Facing(s, edge, side) * Turn(M_PI / 2.0);
       scene_.AddCylinder(sign, 0.035, -0.5, 2.7, 0.6f);
       scene_.AddBox(sign, {-0.3, 0.03, 2.1}, {0.3, 0.05, 2.7}, 0.95f);
     }
     for (double s = Draw(3.0, 25.0); s < length_; s += Draw(20.0, 50.0)) {
       const double half = Draw(0.4, 1.2), height = Draw(0.9, 1.6);
+      if (is_taken(s)) continue;
       scene_.AddBox(Facing(s, garden_ - 0.2, side),
                     {-half, -0.35, -0.5},
                     {half, 0.0, height},
@@ -237,7 +251,7 @@ class StreetBuilder {
 
   void AddBackdrop(int side) {
     for (double s = 0.0; s < length_; s += Draw(1.0, 3.0)) {
-      const double e = Draw(kerb_ + 16.0, kReach - 4.0);
+      const double e = Draw(kerb_ + 16.0, sides_.reach - 4.0);
       const double yaw = Draw(-0.3, 0.3);
       const double kind = random_.Uniform();
       if (road_.IsInSideStreet(s, side, 4.0)) continue;
@@ -262,7 +276,7 @@ class StreetBuilder {
                 fence,
                 kerb_ + 20.0,
                 street.side);
-      for (double e = kerb_ + 21.0; e < kReach - 8.0;) {
+      for (double e = kerb_ + 21.0; e < sides_.reach - 8.0;) {
         const double width = Draw(8.0, 13.0);
         const double setback = Draw(2.5, 5.0);
         AddHouse(road_.WorldFromUpright(kerb + edge * setback,
@@ -274,7 +288,8 @@ class StreetBuilder {
                  scene_);
         e += width + Draw(0.0, 5.0);
       }
-      for (double e = kerb_ + 12.0; e < kReach - 4.0; e += Draw(5.5, 14.0)) {
+      for (double e = kerb_ + 12.0; e < sides_.reach - 4.0;
+           e += Draw(5.5, 14.0)) {
         const double length = Draw(3.6, 4.8);
         if (Chance(0.4)) continue;
         AddCar(road_.WorldFromGround(
@@ -286,11 +301,12 @@ class StreetBuilder {
     }
     for (int i = 0; i < 8; ++i) {  // Where it ends.
       const double s = street.s + Draw(-0.5, 0.5) * street.width;
-      AddPlant(s, kReach - Draw(1.0, 4.0), street.side, 0.2);
+      AddPlant(s, sides_.reach - Draw(1.0, 4.0), street.side, 0.2);
     }
   }
 
-  const Road& road_;
+  const StreetAxis& road_;
+  const StreetSides sides_;
   const double length_, kerb_;
   const double garden_;  // Where the gardens begin [m].
   Random random_;
@@ -299,6 +315,15 @@ class StreetBuilder {
 
 }  // namespace
 
-Scene MakeStreet(const Road& road) { return StreetBuilder(road).Build(); }
+Scene MakeStreet(const Road& road) {
+  return StreetBuilder(road, StreetSides(), road.options().seed).Build();
+}
+
+void AddStreetSides(const StreetAxis& street,
+                    const StreetSides& sides,
+                    uint64_t seed,
+                    Scene& scene) {
+  scene.Append(StreetBuilder(street, sides, seed).BuildSides(), Rigid3());
+}
 
 }  // namespace quatro

@@ -8,14 +8,30 @@
 #ifndef QUATRO_EXPERIMENTS_STREET_H_
 #define QUATRO_EXPERIMENTS_STREET_H_
 
+#include <cstdint>
+
 #include "experiments/road.h"
 #include "experiments/scene.h"
+#include "experiments/street_axis.h"
 
 namespace quatro {
 
 // The ground and all that stands on it, in the world frame of the road. Drawn
 // from the road's seed.
 Scene MakeStreet(const Road& road);
+
+struct StreetSides {
+  double reach = 58.0;   // Largest |d| that is built [m].
+  double corner = 1.0;   // From a side street's kerb to the first house [m].
+  double terrace = 0.3;  // Share of blocks that are without gaps.
+  bool clear_mouths = false;  // No lamps and signs in side streets' mouths.
+};
+
+// What stands on both sides of a street, without ground and side streets.
+void AddStreetSides(const StreetAxis& street,
+                    const StreetSides& sides,
+                    uint64_t seed,
+                    Scene& scene);
 
 }  // namespace quatro
 

@@ -3,6 +3,7 @@
 
 #include "experiments/synthetic.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "features/random.h"
@@ -34,6 +35,14 @@ class Draw {
     const double x = Between(-50.0, 50.0);
     const double y = Between(-50.0, 50.0);
     return {x, y, Between(-4.0, 4.0)};
+  }
+
+  // The attitude as one sees it who is off by `sigma` in each angle.
+  Attitude Seen(const Attitude& attitude, double sigma) {
+    const Eigen::Vector3d error = Noise(sigma);
+    return {attitude.roll + error.x(),
+            attitude.pitch + error.y(),
+            attitude.yaw + error.z()};
   }
 
   Rigid3 Motion() {
@@ -150,6 +159,35 @@ MatchedProblem MakeTimProblem(Eigen::Index num_tims,
       problem.target.col(k) = turned;
     }
   }
+  return problem;
+}
+
+SlopeProblem MakeSlopeProblem(Eigen::Index num_matches,
+                              double outlier_ratio,
+                              double noise_sigma,
+                              double tilt,
+                              double attitude_std,
+                              std::uint64_t seed) {
+  Draw draw(seed);
+  SlopeProblem problem;
+  MatchedProblem& matches = problem.matches;
+  matches = WithRandomTargets(num_matches, &draw);
+  const double heading = draw.Between(-M_PI, M_PI);
+  const Eigen::Vector3d axis(std::cos(heading), std::sin(heading), 0.0);
+  Eigen::Matrix3d& rotation = matches.true_target_from_source.rotation;
+  rotation = (Eigen::AngleAxisd(tilt, axis) * rotation).eval();
+  const auto num_outliers = static_cast<Eigen::Index>(
+      std::llround(outlier_ratio * static_cast<double>(num_matches)));
+  for (Eigen::Index i = num_outliers; i < num_matches; ++i) {
+    MakeTrue(i, noise_sigma, &draw, &matches);
+  }
+  Attitude target;
+  target.roll = draw.Between(-0.1, 0.1);
+  target.pitch = draw.Between(-0.1, 0.1);
+  target.yaw = draw.Between(-M_PI, M_PI);
+  const Attitude source = AttitudeOf(WorldFromBody(target) * rotation);
+  problem.target_attitude = draw.Seen(target, attitude_std);
+  problem.source_attitude = draw.Seen(source, attitude_std);
   return problem;
 }
 

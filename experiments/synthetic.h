@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include "features/types.h"
+#include "solvers/gravity.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -55,6 +56,23 @@ MatchedProblem MakeQuasiInlierProblem(Eigen::Index num_matches,
 MatchedProblem MakeTimProblem(Eigen::Index num_tims,
                               double outlier_ratio,
                               double noise_sigma,
+                              std::uint64_t seed);
+
+// Matches on a hill, and what an INS says of the two attitudes.
+struct SlopeProblem {
+  MatchedProblem matches;
+  Attitude source_attitude;
+  Attitude target_attitude;
+};
+
+// As MakeOutlierProblem, but that the source is tilted by `tilt` [rad] against
+// the target in any direction, and the target against the horizon by up to 0.1
+// rad in roll and pitch. The INS is off by `attitude_std` [rad] in each angle.
+SlopeProblem MakeSlopeProblem(Eigen::Index num_matches,
+                              double outlier_ratio,
+                              double noise_sigma,
+                              double tilt,
+                              double attitude_std,
                               std::uint64_t seed);
 
 }  // namespace quatro

@@ -12,6 +12,7 @@
 #include "features/stopwatch.h"
 #include "robust/arc_consensus.h"
 #include "robust/gnc.h"
+#include "robust/ins.h"
 #include "robust/quasi_so3.h"
 #include "robust/quatro.h"
 #include "robust/surrogate.h"
@@ -358,6 +359,76 @@ Table RunSizeProtocol(int num_seeds,
                             Number(100.0 * ratio, 0) + " %",
                             Count(num_right, num_seeds),
                             Number(1e3 * Median(seconds), 1)});
+    }
+  }
+  return table;
+}
+
+Table RunSlopeProtocol(int num_seeds, const Progress& progress) {
+  constexpr double kNoiseBound = 0.3;
+  constexpr double kAttitudeStd = 0.3 * kDegree;
+  constexpr Eigen::Index kNumMatches = 100;
+  const std::vector<Eigen::Index> num_true = {30, 4};
+  const std::vector<double> tilts_deg = {2.0, 5.0, 10.0, 15.0};
+  const std::vector<std::pair<const char*, InsMode>> modes = {
+      {"plain", InsMode::kNone},
+      {"relative", InsMode::kRelative},
+      {"leveled", InsMode::kLeveled},
+      {"fused", InsMode::kFused}};
+  Table table{{"INS", "true of 100", "polish"}, {}};
+  for (const double tilt_deg : tilts_deg) {
+    table.columns.push_back(Number(tilt_deg, 0) + " deg");
+  }
+  for (const auto& [name, mode] : modes) {
+    for (const Eigen::Index n : num_true) {
+      table.rows.push_back({name, std::to_string(n), "off"});
+      table.rows.push_back({name, std::to_string(n), "on"});
+    }
+  }
+  const int num_problems =
+      static_cast<int>(tilts_deg.size() * num_true.size()) * num_seeds;
+  int num_done = 0;
+  for (const double tilt_deg : tilts_deg) {
+    std::vector<std::vector<double>> errors(table.rows.size());
+    for (std::size_t i = 0; i < num_true.size(); ++i) {
+      for (int seed = 0; seed < num_seeds; ++seed) {
+        const SlopeProblem problem = MakeSlopeProblem(
+            kNumMatches,
+            1.0 - static_cast<double>(num_true[i]) / kNumMatches,
+            kNoiseBound / 3.0,
+            tilt_deg * kDegree,
+            kAttitudeStd,
+            static_cast<std::uint64_t>(seed));
+        const MatchedProblem& matches = problem.matches;
+        for (std::size_t k = 0; k < 2 * modes.size(); ++k) {
+          QuatroOptions options;
+          options.noise_bound = kNoiseBound;
+          options.polish = k % 2 == 1;
+          InsOptions ins;
+          ins.mode = modes[k / 2].second;
+          ins.source_attitude = problem.source_attitude;
+          ins.target_attitude = problem.target_attitude;
+          ins.attitude_std = kAttitudeStd;
+          const PoseSummary summary =
+              SolveQuatroWithIns(matches.source, matches.target, options, ins);
+          const std::size_t row = (k / 2 * num_true.size() + i) * 2 + k % 2;
+          errors[row].push_back(
+              summary.IsUsable()
+                  ? AngleBetween(summary.target_from_source->rotation,
+                                 matches.true_target_from_source.rotation)
+                  : M_PI);
+        }
+        progress(++num_done, num_problems);
+      }
+    }
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const auto num_right = std::count_if(
+          errors[row].begin(), errors[row].end(), [](double error) {
+            return error <= 1.0 * kDegree;
+          });
+      table.rows[row].push_back(
+          Number(Median(errors[row]) / kDegree, 2) + " (" +
+          Count(static_cast<int>(num_right), num_seeds) + ")");
     }
   }
   return table;

@@ -41,6 +41,10 @@ Table RunSizeProtocol(int num_seeds,
                       int num_threads,
                       const Progress& progress);
 
+// Slopes of 2, 5, 10 and 15 deg with an INS that is off by 0.3 deg: Quatro
+// without and with it, in its three ways, without and with the polish.
+Table RunSlopeProtocol(int num_seeds, const Progress& progress);
+
 }  // namespace quatro
 
 #endif  // QUATRO_EXPERIMENTS_SYNTHETIC_PROTOCOLS_H_

@@ -125,4 +125,30 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
   return result;
 }
 
+Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
+                                       int k,
+                                       int num_threads) {
+  const Eigen::Index n = tree.points().cols();
+  const Eigen::Index row_size = std::clamp<Eigen::Index>(k, 0, n);
+  Neighborhoods result;
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    result.row_begin.push_back(i * row_size);
+  }
+  result.index.resize(static_cast<std::size_t>(n * row_size));
+  result.squared_distance.resize(result.index.size());
+  ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const auto nearest =
+          tree.Nearest(tree.points().col(i), static_cast<int>(row_size));
+      auto at = static_cast<std::size_t>(i * row_size);
+      for (const Neighbor& neighbor : nearest) {
+        result.index[at] = static_cast<std::int32_t>(neighbor.index);
+        result.squared_distance[at++] =
+            static_cast<float>(neighbor.squared_distance);
+      }
+    }
+  });
+  return result;
+}
+
 }  // namespace quatro

@@ -43,8 +43,8 @@ class KdTree {
   std::unique_ptr<const Index> index_;
 };
 
-// The points within a radius of each point of a cloud, itself among them, as
-// compressed rows: row i is [row_begin[i], row_begin[i + 1]) of `index`
+// The points around each point of a cloud, itself among them, as compressed
+// rows: row i is [row_begin[i], row_begin[i + 1]) of `index`
 // (ascending) and `squared_distance`.
 struct Neighborhoods {
   std::vector<std::int64_t> row_begin;
@@ -59,6 +59,11 @@ struct Neighborhoods {
 Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);
+
+// The same of the `k` nearest, nearest first; fewer if the tree holds fewer.
+Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
+                                       int k,
+                                       int num_threads);
 
 }  // namespace quatro
 

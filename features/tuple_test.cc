@@ -16,6 +16,9 @@ bool TupleTestOptions::IsValid(std::string* error) const {
   } else if (num_triples_per_match < 1) {
     problem << "tuple_test.num_triples_per_match = " << num_triples_per_match
             << ", must be >= 1";
+  } else if (max_num_triples < 0) {
+    problem << "tuple_test.max_num_triples = " << max_num_triples
+            << ", must be >= 0";
   }
   *error = problem.str();
   return error->empty();
@@ -38,6 +41,7 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
   };
 
   std::vector<bool> passes(n, false);
+  std::int64_t num_passed = 0;
   Random random(options.seed);
   const std::size_t num_triples =
       n * static_cast<std::size_t>(options.num_triples_per_match);
@@ -45,11 +49,15 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
     const std::size_t a = random.Below(n);
     const std::size_t b = random.Below(n);
     const std::size_t c = random.Below(n);
-    if (passes[a] && passes[b] && passes[c]) continue;
+    // Nothing new, but to the count.
+    if (options.max_num_triples == 0 && passes[a] && passes[b] && passes[c]) {
+      continue;
+    }
     if (sides_agree(matches[a], matches[b]) &&
         sides_agree(matches[b], matches[c]) &&
         sides_agree(matches[c], matches[a])) {
       passes[a] = passes[b] = passes[c] = true;
+      if (++num_passed == options.max_num_triples) break;
     }
   }
   std::vector<Match> kept;

@@ -22,6 +22,12 @@ namespace quatro {
 struct TupleTestOptions {
   double scale = 0.95;  // s in (1), in (0, 1).
   int num_triples_per_match = 100;
+
+  // Stop once so many triples have passed; 0: never. The program of the paper's
+  // authors stops at 1000, and gives a match as often as triples with it
+  // passed.
+  std::int64_t max_num_triples = 0;
+
   std::uint64_t seed = 0;
 
   // Returns false and says why in *error if a value is out of range.

@@ -175,6 +175,7 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   summary.num_translation_inliers = static_cast<Eigen::Index>(agreeing.size());
   summary.translation_inliers = InputColumns(matches, agreeing);
   summary.target_from_source = target_from_source;
+  summary.model = PoseModel::kYawTranslation;
   summary.termination = PoseTermination::kSolved;
   summary.message = "solved";
   summary.stage_times.push_back({"translation", stopwatch.Lap()});

@@ -24,6 +24,20 @@ double ConsensusCost(const PointsRef& source,
   return cost;
 }
 
+std::vector<Eigen::Index> FindWithinBall(const PointsRef& source,
+                                         const PointsRef& target,
+                                         const Rigid3& target_from_source,
+                                         double noise_bound) {
+  CHECK_EQ(source.cols(), target.cols());
+  const Points error = target - target_from_source.Apply(source);
+  const double limit = noise_bound * noise_bound;
+  std::vector<Eigen::Index> within;
+  for (Eigen::Index i = 0; i < error.cols(); ++i) {
+    if (error.col(i).squaredNorm() <= limit) within.push_back(i);
+  }
+  return within;
+}
+
 std::vector<Eigen::Index> FindAgreeing(const PointsRef& source,
                                        const PointsRef& target,
                                        const Rigid3& target_from_source,

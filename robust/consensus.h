@@ -24,6 +24,12 @@ double ConsensusCost(const PointsRef& source,
                      const Rigid3& target_from_source,
                      double noise_bound);
 
+// The columns that (1) does not truncate, in ascending order.
+std::vector<Eigen::Index> FindWithinBall(const PointsRef& source,
+                                         const PointsRef& target,
+                                         const Rigid3& target_from_source,
+                                         double noise_bound);
+
 // The columns with |q_i - R p_i - t| <= b on each axis, in ascending order.
 std::vector<Eigen::Index> FindAgreeing(const PointsRef& source,
                                        const PointsRef& target,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "robust/free_space.h"
+#include "solvers/gravity.h"
 
 namespace quatro {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 struct MetSums {
   std::vector<double> residuals;  // [m]
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Eigen::Vector3d points = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> points;
 };
 
 void AddMet(const std::vector<StructurePoint>& structure,
@@ -37,34 +38,80 @@ void AddMet(const std::vector<StructurePoint>& structure,
     const Eigen::Vector3d normal =
         target_from_a.rotation * a.normals.col(point.index);
     sums->information += normal.head<2>() * normal.head<2>().transpose();
-    sums->points += target_from_a * p;
+    sums->points.push_back(target_from_a * p);
   }
 }
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// `share` of them are smaller. 0 of none.
+double Quantile(double share, std::vector<double>* values) {
+  if (values->empty()) return 0.0;
+  const auto at =
+      values->begin() + static_cast<std::ptrdiff_t>(
+                            share * static_cast<double>(values->size() - 1));
+  std::nth_element(values->begin(), at, values->end());
+  return *at;
 }
 
+// Halfway between the ends rather than the mean, which is near the sensors,
+// where most points are: a hall is symmetric about its middle.
+Eigen::Vector3d MiddleAlong(const Eigen::Vector3d& direction,
+                            const std::vector<Eigen::Vector3d>& points) {
+  std::vector<double> along;
+  along.reserve(points.size());
+  for (const Eigen::Vector3d& point : points) {
+    along.push_back(direction.dot(point));
+  }
+  constexpr double kEnds = 0.02;
+  const double low = Quantile(kEnds, &along);
+  return 0.5 * (low + Quantile(1.0 - kEnds, &along)) * direction;
+}
+
+std::optional<RangeImage> ImageOf(const SurfaceCloud& cloud,
+                                  double voxel_size) {
+  if (!cloud.is_scan) return std::nullopt;
+  return RangeImage(cloud.tree.points(), cloud.sensor, voxel_size);
+}
+
+// Of a's structure in what b saw.
 void AddFreeSpace(const std::vector<StructurePoint>& structure,
                   const SurfaceCloud& a,
-                  const SurfaceCloud& b,
+                  const std::optional<RangeImage>& b,
                   const Rigid3& b_from_a,
-                  const EvidenceOptions& options,
-                  GeometricEvidence* evidence) {
-  if (!b.is_scan) return;
-  const RangeImage image(b.tree.points(), b.sensor, options.voxel_size);
-  const double margin = options.max_distance_in_voxels * options.voxel_size;
+                  double margin,
+                  FreeSpace* sum) {
+  if (!b) return;
   for (const StructurePoint& point : structure) {
-    evidence->num_met += point.is_met;
+    sum->num_met += point.is_met;
     if (point.is_near) continue;
-    evidence->num_contradicted +=
-        image.At(b_from_a * Eigen::Vector3d(a.tree.points().col(point.index)),
-                 margin) == RangeImage::Sight::kFree;
+    sum->num_contradicted +=
+        b->At(b_from_a * Eigen::Vector3d(a.tree.points().col(point.index)),
+              margin) == RangeImage::Sight::kFree;
   }
+}
+
+// In a target frame whose z is up.
+std::optional<GeometricEvidence> MeasureLevel(const SurfaceCloud& source,
+                                              const SurfaceCloud& target,
+                                              const Rigid3& target_from_source,
+                                              const EvidenceOptions& options,
+                                              int num_threads) {
+  const Rigid3 level{RotationBetween(target.up, Eigen::Vector3d::UnitZ()),
+                     Eigen::Vector3d::Zero()};
+  const KdTree tree(level.Apply(target.tree.points()));
+  const Points normals = level.rotation * target.normals;
+  auto evidence = MeasureGeometricEvidence(
+      source,
+      {level * target.sensor, tree, normals, target.is_scan},
+      level * target_from_source,
+      options,
+      num_threads);
+  if (!evidence) return std::nullopt;
+  const Rigid3 back = Inverse(level);
+  evidence->weakest_direction = back.rotation * evidence->weakest_direction;
+  evidence->rival.shift = back.rotation * evidence->rival.shift;
+  evidence->rival.rival_target_from_source =
+      back * evidence->rival.rival_target_from_source;
+  return evidence;
 }
 
 }  // namespace
@@ -90,6 +137,10 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
     const Rigid3& target_from_source,
     const EvidenceOptions& options,
     int num_threads) {
+  if (target.up != Eigen::Vector3d::UnitZ()) {
+    return MeasureLevel(
+        source, target, target_from_source, options, num_threads);
+  }
   if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
     return std::nullopt;
   }
@@ -111,38 +162,62 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
   AddMet(
       of_source, source, target, target_from_source, target_from_source, &sums);
   AddMet(of_target, target, source, source_from_target, Rigid3(), &sums);
-  evidence.median_residual = Median(sums.residuals) / options.voxel_size;
+  evidence.median_residual =
+      Quantile(0.5, &sums.residuals) / options.voxel_size;
   const auto num_met =
       static_cast<double>(std::max<std::size_t>(1, sums.residuals.size()));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(sums.information /
                                                               num_met);
   evidence.weakest_share = std::max(0.0, solver.eigenvalues()[0]);
-  const Eigen::Vector2d weakest = solver.eigenvectors().col(0);
+  const Eigen::Vector2d eigenvector = solver.eigenvectors().col(0);
   Eigen::Index largest = 0;
-  weakest.cwiseAbs().maxCoeff(&largest);
+  eigenvector.cwiseAbs().maxCoeff(&largest);
   evidence.weakest_direction.head<2>() =
-      weakest[largest] < 0.0 ? -weakest : weakest;
+      eigenvector[largest] < 0.0 ? -eigenvector : eigenvector;
 
-  AddFreeSpace(
-      of_source, source, target, target_from_source, options, &evidence);
-  AddFreeSpace(
-      of_target, target, source, source_from_target, options, &evidence);
-  const Eigen::Index num_tested = evidence.num_contradicted + evidence.num_met;
-  if (num_tested > 0) {
-    evidence.contradicted_share =
-        static_cast<double>(evidence.num_contradicted) /
-        static_cast<double>(num_tested);
+  const auto source_image = ImageOf(source, options.voxel_size);
+  const auto target_image = ImageOf(target, options.voxel_size);
+  AddFreeSpace(of_source,
+               source,
+               target_image,
+               target_from_source,
+               max_distance,
+               &evidence.free_space);
+  AddFreeSpace(of_target,
+               target,
+               source_image,
+               source_from_target,
+               max_distance,
+               &evidence.free_space);
+
+  Eigen::Vector3d middle = target.sensor;
+  if (!sums.points.empty()) {
+    const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d& weakest = evidence.weakest_direction;
+    middle = MiddleAlong(weakest, sums.points) +
+             MiddleAlong(up.cross(weakest), sums.points);
   }
-
-  const Eigen::Vector3d middle = sums.points / num_met;
-  evidence.rival =
-      FindRivalPose(source,
-                    target,
-                    target_from_source,
-                    sums.residuals.empty() ? target.sensor : middle,
-                    evidence.weakest_direction,
-                    max_distance,
-                    options.rival);
+  evidence.rival = FindRivalPose(source,
+                                 target,
+                                 target_from_source,
+                                 middle,
+                                 evidence.weakest_direction,
+                                 max_distance,
+                                 options.rival);
+  const Rigid3& rival = evidence.rival.rival_target_from_source;
+  AddFreeSpace(FindStructure(source, target, rival, max_distance, num_threads),
+               source,
+               target_image,
+               rival,
+               max_distance,
+               &evidence.rival_free_space);
+  AddFreeSpace(
+      FindStructure(target, source, Inverse(rival), max_distance, num_threads),
+      target,
+      source_image,
+      Inverse(rival),
+      max_distance,
+      &evidence.rival_free_space);
   return evidence;
 }
 

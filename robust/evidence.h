@@ -39,21 +39,32 @@ struct EvidenceOptions {
   bool IsValid(std::string* error) const;
 };
 
+// Structure of either scan, in the ways in which the other is a scan.
+struct FreeSpace {
+  Eigen::Index num_contradicted = 0;
+  Eigen::Index num_met = 0;
+
+  // Contradicted of both, in [0, 1]. Nullopt if nothing was tested.
+  std::optional<double> ContradictedShare() const {
+    const Eigen::Index num_tested = num_contradicted + num_met;
+    if (num_tested == 0) return std::nullopt;
+    return static_cast<double>(num_contradicted) /
+           static_cast<double>(num_tested);
+  }
+};
+
 struct GeometricEvidence {
   double structure_overlap = 0.0;  // In [0, 1].
   double median_residual = 0.0;    // Of met points [voxel sizes]; 0 if none.
 
-  // contradicted / (contradicted + met) over both ways, in [0, 1]. Nullopt if
-  // neither cloud is a scan or nothing was tested.
-  std::optional<double> contradicted_share;
-  Eigen::Index num_contradicted = 0;
-  Eigen::Index num_met = 0;  // Of the ways in which free space is known.
+  FreeSpace free_space;
 
   // Of equation (1), in the target's frame, z = 0 and its larger part > 0.
   Eigen::Vector3d weakest_direction = Eigen::Vector3d::UnitX();
   double weakest_share = 0.0;  // In [0, 1/2].
 
   RivalPose rival;
+  FreeSpace rival_free_space;  // A rival that is contradicted is none.
 
   // How much better the pose is than its rival, in [-1, 1].
   double Distinctness() const { return rival.overlap - rival.rival_overlap; }

@@ -15,8 +15,22 @@ constexpr int kNumColumns = 512;
 constexpr int kNumRows = 128;
 constexpr double kCell = 2.0 / kNumRows;  // [rad], about.
 
-// A point right at the sensor would block half the sky.
-constexpr int kMaxReach = 8;
+// How many cells to either side a point sees and blocks.
+struct Reach {
+  int sees;
+  int blocks;
+};
+
+// Of a point `angle` wide to either side, in cells of `cell` [rad]. A point
+// right at the sensor would reach over half the sky.
+Reach ReachOf(double angle, double cell) {
+  constexpr double kMaxReach = 16.0;
+  // Rounded down: sight is not lent to what is farther off.
+  const int sees = static_cast<int>(std::min(kMaxReach, angle / cell));
+  const int blocks =
+      static_cast<int>(std::min(kMaxReach, (angle + kCell) / cell));
+  return {sees, std::max(sees + 1, blocks)};
+}
 
 }  // namespace
 
@@ -56,18 +70,24 @@ RangeImage::RangeImage(const PointsRef& points,
     const Cell cell = CellOf(points.col(i));
     if (cell.range == 0.0) continue;
     min_range_ = std::min(min_range_, cell.range);
-    // Rounded down: sight is not lent to what is farther than half a cell off.
-    const int sees = static_cast<int>(
-        std::min<double>(kMaxReach, half_diagonal / (kCell * cell.range)));
-    const int blocks = sees + 1;
+    // Angles of this cell about the sensor, and of half the diagonal. A turn is
+    // 4 diamond angles, each (|x| + |y|)^2 / (x^2 + y^2) rad.
+    const Eigen::Vector3d ray = points.col(i) - sensor;
+    const double across = std::max(ray.head<2>().norm(), 1e-3 * cell.range);
+    const double sum = std::max(ray.head<2>().lpNorm<1>(), across);
+    const double width = 4.0 / kNumColumns * (sum / across) * (sum / across);
+    const double height = kCell * cell.range / across;
+    const Reach rows = ReachOf(half_diagonal / cell.range, height);
+    const Reach columns = ReachOf(half_diagonal / across, width);
     const auto range = static_cast<float>(cell.range);
-    const int last_row = std::min(kNumRows - 1, cell.row + blocks);
-    for (int row = std::max(0, cell.row - blocks); row <= last_row; ++row) {
-      const bool row_is_seen = std::abs(row - cell.row) <= sees;
-      for (int step = -blocks; step <= blocks; ++step) {
+    const int last_row = std::min(kNumRows - 1, cell.row + rows.blocks);
+    for (int row = std::max(0, cell.row - rows.blocks); row <= last_row;
+         ++row) {
+      const bool row_is_seen = std::abs(row - cell.row) <= rows.sees;
+      for (int step = -columns.blocks; step <= columns.blocks; ++step) {
         const std::size_t at = At(row, cell.column + step);
         free_[at] = std::min(free_[at], range);
-        if (row_is_seen && std::abs(step) <= sees) is_known_[at] = 1;
+        if (row_is_seen && std::abs(step) <= columns.sees) is_known_[at] = 1;
       }
     }
   }

@@ -10,14 +10,14 @@
 // over cells of equal solid angle, sin(elevation) by azimuth, the latter as
 // the diamond angle (x and y by |x| + |y|), which needs no trigonometry. The
 // points are voxel means and stand for surfaces as wide as a voxel: p blocks
-// all cells within half a voxel's diagonal of it and one cell more. The one
-// more keeps edges and slanted surfaces from being contradicted, but lends no
+// all cells within half a voxel's diagonal of it and about 1 deg more. The one
+// degree keeps edges and slanted surfaces from being contradicted, but lends no
 // sight: a cell is known only if a point is within the half diagonal or in the
 // cell, so that the gaps between beams stay unknown, not free.
 //
 // A point q is contradicted if its cell is known and
 //
-//   |q - sensor| < free(c) - margin - cell |q - sensor|.                    (2)
+//   |q - sensor| < free(c) - margin - 0.9 deg |q - sensor|.                 (2)
 //
 // What is behind something seen is hidden, not contradicted.
 

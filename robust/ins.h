@@ -16,8 +16,9 @@
 //             prior (solvers/ins_refinement.h), which takes out of the answer
 //             what the INS is off by, as far as the matches know better.
 //
-// An INS that knows the rotation from source to target alone: give that as the
-// source's attitude and zeros as the target's.
+// An INS that knows the rotation from source to target alone: give AttitudeOf()
+// that as the source's attitude and zeros as the target's. Relative and leveled
+// are then the same.
 
 #ifndef QUATRO_ROBUST_INS_H_
 #define QUATRO_ROBUST_INS_H_
@@ -26,6 +27,7 @@
 #include <string>
 
 #include "features/types.h"
+#include "robust/pose_summary.h"
 #include "robust/quatro.h"
 #include "solvers/gravity.h"
 
@@ -40,8 +42,17 @@ struct InsOptions {
   Attitude source_attitude;
   Attitude target_attitude;
 
-  // Of each roll and pitch [rad], for InsMode::kFused.
+  // For InsMode::kFused. Of each roll and pitch, the source's and the target's
+  // independent of each other [rad]: the tilt between the clouds is off by
+  // sqrt(2) times as much. Where one knows the deviation of that tilt instead,
+  // this is 1 / sqrt(2) of it.
   double attitude_std = 0.0087;
+
+  // For InsMode::kFused. Of a right match on each axis [m]; 0: a third of the
+  // noise bound. Only its ratio to attitude_std counts. Errors of real matches
+  // are not independent, so that many of them may say less than (1) of
+  // solvers/ins_refinement.h makes of it.
+  double match_std = 0.0;
 
   // What is up in a cloud whose roll and pitch are zero, a unit vector. The
   // body's axes are the cloud's turned by RotationBetween(up, z).
@@ -49,7 +60,18 @@ struct InsOptions {
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
+
+  // True if the INS and the axis have no say: mode is kNone and up is z.
+  bool IsPlain() const;
 };
+
+// Rotations that turn what is up into z; for InsMode::kRelative, up in the
+// target is `up`.
+struct LevelFrames {
+  Eigen::Matrix3d level_from_source;
+  Eigen::Matrix3d level_from_target;
+};
+LevelFrames MakeLevelFrames(const InsOptions& ins);
 
 // Column i of `source` is matched with column i of `target` [m].
 //
@@ -60,6 +82,15 @@ QuatroSummary SolveQuatroWithIns(const PointsRef& source,
                                  const PointsRef& target,
                                  const QuatroOptions& options,
                                  const InsOptions& ins);
+
+// The same by any solver, which is given the matches in the level frames. An
+// estimator of the full rotation gains by InsMode::kFused alone. `noise_bound`
+// is the solver's [m].
+PoseSummary SolveWithIns(const PointsRef& source,
+                         const PointsRef& target,
+                         const PoseSolver& solver,
+                         double noise_bound,
+                         const InsOptions& ins);
 
 }  // namespace quatro
 

@@ -11,15 +11,15 @@
 namespace quatro {
 namespace {
 
-constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
+constexpr double kMaxVertical = 0.7071;  // |n_up| of a surface at 45 deg.
 constexpr double kMinNormalCosine = 0.8;
 constexpr double kRangeQuantile = 0.75;
 constexpr std::size_t kMinStructure = 50;
 
 }  // namespace
 
-bool IsStructure(const Eigen::Vector3d& normal) {
-  return !normal.isZero(0.0) && std::abs(normal.z()) <= kMaxVertical;
+bool IsStructure(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
+  return !normal.isZero(0.0) && std::abs(normal.dot(up)) <= kMaxVertical;
 }
 
 double UsefulRange(const SurfaceCloud& cloud) {
@@ -46,7 +46,7 @@ std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
   const double max_range = UsefulRange(b);
   std::vector<StructurePoint> found;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    if (!IsStructure(a.normals.col(i))) continue;
+    if (!IsStructure(a.normals.col(i), a.up)) continue;
     const Eigen::Vector3d point_in_b =
         b_from_a * Eigen::Vector3d(points.col(i));
     if ((point_in_b - b.sensor).norm() <= max_range) found.push_back({i});

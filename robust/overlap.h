@@ -32,10 +32,12 @@ struct SurfaceCloud {
 
   // All was seen from `sensor`, so that nothing stands before what was seen.
   bool is_scan = true;
+
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // What the vertical is.
 };
 
 // Whether a surface with this normal stands; false for zero.
-bool IsStructure(const Eigen::Vector3d& normal);
+bool IsStructure(const Eigen::Vector3d& normal, const Eigen::Vector3d& up);
 
 // The distance from the sensor that holds three quarters of the points [m]; 0
 // without points.

@@ -28,19 +28,6 @@ namespace {
 // Bounds of the alternation, in noise bounds.
 constexpr double kSchedule[] = {2.0, 1.5, 1.0, 1.0, 1.0, 1.0};
 
-std::vector<Eigen::Index> WithinBall(const PointsRef& source,
-                                     const PointsRef& target,
-                                     const Rigid3& pose,
-                                     double noise_bound) {
-  const Points error = target - pose.Apply(source);
-  const double limit = noise_bound * noise_bound;
-  std::vector<Eigen::Index> within;
-  for (Eigen::Index i = 0; i < error.cols(); ++i) {
-    if (error.col(i).squaredNorm() <= limit) within.push_back(i);
-  }
-  return within;
-}
-
 // (1), from a first pose. Nullopt where the matches don't hold one.
 std::optional<Rigid3> Refine(const PointsRef& source,
                              const PointsRef& target,
@@ -49,7 +36,7 @@ std::optional<Rigid3> Refine(const PointsRef& source,
   std::vector<Eigen::Index> before;
   for (const double factor : kSchedule) {
     std::vector<Eigen::Index> inliers =
-        WithinBall(source, target, pose, factor * noise_bound);
+        FindWithinBall(source, target, pose, factor * noise_bound);
     if (factor == 1.0 && inliers == before) break;
     const auto rigid =
         EstimateRigid(Columns(source, inliers),
@@ -84,7 +71,7 @@ double RotationStd(const PointsRef& source,
                    const PointsRef& target,
                    const Rigid3& pose,
                    double noise_bound) {
-  const auto inliers = WithinBall(source, target, pose, noise_bound);
+  const auto inliers = FindWithinBall(source, target, pose, noise_bound);
   const auto n = static_cast<double>(inliers.size());
   if (inliers.size() < 3) return std::numeric_limits<double>::infinity();
   const Points moved = pose.Apply(Columns(source, inliers));

@@ -6,11 +6,15 @@
 #define QUATRO_ROBUST_POSE_SUMMARY_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "features/stopwatch.h"
+#include "features/types.h"
+#include "solvers/ins_refinement.h"
+#include "solvers/pose_covariance.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -55,6 +59,14 @@ struct PoseSummary {
   // The answer before it was polished in SE(3), if it was.
   std::optional<Rigid3> unpolished_target_from_source;
 
+  // What of the pose was estimated, and what it takes from an INS: which way is
+  // up (kYawTranslation), or a term beside the matches (kRigid).
+  PoseModel model = PoseModel::kRigid;
+  std::optional<VerticalPrior> vertical;
+
+  // By AddCovariance() (robust/summary_covariance.h), for every estimator.
+  std::optional<PoseCovariance> covariance;
+
   double scale = 1.0;  // Of the target over the source; 1 unless estimated.
 
   // Consistent matches that this estimator needs.
@@ -85,6 +97,10 @@ struct PoseSummary {
     return {};
   }
 };
+
+// Any estimator; its options are its own.
+using PoseSolver = std::function<PoseSummary(const PointsRef& source,
+                                             const PointsRef& target)>;
 
 }  // namespace quatro
 

@@ -197,6 +197,7 @@ QuatroSummary SolveQuatro(const PointsRef& source,
     return summary;
   }
   summary.yaw = *yaw;
+  summary.model = PoseModel::kYawTranslation;
 
   const Eigen::Matrix3d rotation = RotationZ(*yaw);
   const auto translation =
@@ -223,6 +224,7 @@ QuatroSummary SolveQuatro(const PointsRef& source,
     summary.notes.push_back({"polish", polish.message});
     if (polish.is_polished) {
       summary.unpolished_target_from_source = pose;
+      summary.model = PoseModel::kRigid;
       pose = polish.target_from_source;
     }
     summary.stage_times.push_back({"polish", stopwatch.Lap()});

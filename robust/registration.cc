@@ -14,6 +14,7 @@
 #include "features/normals.h"
 #include "features/voxel_grid.h"
 #include "robust/evidence.h"
+#include "robust/summary_covariance.h"
 
 namespace quatro {
 namespace {
@@ -22,7 +23,7 @@ namespace {
 // around its origin is in the coordinates of a map; there, above its middle,
 // from where it need not have been seen.
 struct AssumedSensor {
-  explicit AssumedSensor(const Points& points) {
+  AssumedSensor(const Points& points, const Eigen::Vector3d& up) {
     const Eigen::Vector3d low = points.rowwise().minCoeff();
     const Eigen::Vector3d high = points.rowwise().maxCoeff();
     const Eigen::Vector3d margin = 0.5 * (high - low);
@@ -30,7 +31,8 @@ struct AssumedSensor {
         (low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0;
     if (is_scan) return;
     const Eigen::Vector3d middle = 0.5 * (low + high);
-    place = {middle.x(), middle.y(), high.z()};
+    place =
+        middle + up * (up.transpose() * (points.colwise() - middle)).maxCoeff();
   }
 
   bool is_scan = true;
@@ -38,6 +40,7 @@ struct AssumedSensor {
 };
 
 struct DescribedCloud {
+  Eigen::Vector3d up;
   AssumedSensor sensor;
   KdTree tree;
   Points normals;
@@ -45,20 +48,51 @@ struct DescribedCloud {
 };
 
 SurfaceCloud AsSurface(const DescribedCloud& cloud) {
-  return {cloud.sensor.place, cloud.tree, cloud.normals, cloud.sensor.is_scan};
+  return {cloud.sensor.place,
+          cloud.tree,
+          cloud.normals,
+          cloud.sensor.is_scan,
+          cloud.up};
 }
 
 DescribedCloud Describe(const Points& points,
+                        const Eigen::Vector3d& up,
                         const FrontEndOptions& options,
                         int num_threads) {
-  const AssumedSensor sensor(points);
+  const AssumedSensor sensor(points, up);
   KdTree tree(points);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(tree, options.fpfh_radius, num_threads);
   Points normals = EstimateNormals(
       points, neighborhoods, options.normal_radius, sensor.place, num_threads);
   Fpfh fpfh = ComputeFpfh(points, normals, neighborhoods, num_threads);
-  return {sensor, std::move(tree), std::move(normals), std::move(fpfh)};
+  return {up, sensor, std::move(tree), std::move(normals), std::move(fpfh)};
+}
+
+// What the clouds say of the pose; what they do not hold goes into the summary.
+std::optional<GeometricEvidence> WeighGeometry(
+    const DescribedCloud& source,
+    const DescribedCloud& target,
+    const RegistrationOptions& options,
+    RegistrationSummary* summary) {
+  const Rigid3& pose = *summary->solution.target_from_source;
+  EvidenceOptions evidence;
+  evidence.voxel_size = options.front_end.voxel_size;
+  StructureHoldOptions hold = options.structure_hold;
+  hold.max_distance = evidence.max_distance_in_voxels * evidence.voxel_size;
+  summary->structure_hold = MeasureStructureHold(
+      AsSurface(source), AsSurface(target), pose, hold, options.num_threads);
+  if (summary->structure_hold) {
+    auto& unheld = summary->solution.covariance->unheld;
+    unheld.insert(unheld.end(),
+                  summary->structure_hold->unheld.begin(),
+                  summary->structure_hold->unheld.end());
+  }
+  return MeasureGeometricEvidence(AsSurface(source),
+                                  AsSurface(target),
+                                  pose,
+                                  evidence,
+                                  options.num_threads);
 }
 
 }  // namespace
@@ -86,7 +120,9 @@ bool RegistrationOptions::IsValid(std::string* error) const {
     return false;
   }
   return front_end.IsValid(error) && quatro.IsValid(error) &&
-         verdict.IsValid(error);
+         ins.IsValid(error) && verdict.IsValid(error) &&
+         covariance.IsValid(error) && structure_hold.IsValid(error) &&
+         refinement.IsValid(error);
 }
 
 RegistrationSummary Register(const PointCloud& source,
@@ -124,10 +160,17 @@ RegistrationSummary Register(const PointCloud& source,
   summary.num_target_voxels = target_voxels->cols();
   finish_stage("voxels");
 
+  const LevelFrames frames = MakeLevelFrames(options.ins);
   const DescribedCloud source_cloud =
-      Describe(*source_voxels, options.front_end, options.num_threads);
+      Describe(*source_voxels,
+               frames.level_from_source.row(2).transpose(),
+               options.front_end,
+               options.num_threads);
   const DescribedCloud target_cloud =
-      Describe(*target_voxels, options.front_end, options.num_threads);
+      Describe(*target_voxels,
+               frames.level_from_target.row(2).transpose(),
+               options.front_end,
+               options.num_threads);
   finish_stage("features");
 
   std::vector<Match> matches = MatchMutualNearest(
@@ -151,29 +194,49 @@ RegistrationSummary Register(const PointCloud& source,
   QuatroOptions quatro = options.quatro;
   quatro.num_threads = options.num_threads;
   quatro.seed = options.seed;
+  const PoseSolver solve_quatro = [&](const PointsRef& p, const PointsRef& q) {
+    return SolveQuatro(p, q, quatro);
+  };
   summary.solution =
-      options.solver
-          ? options.solver(summary.matched_source, summary.matched_target)
-          : SolveQuatro(summary.matched_source, summary.matched_target, quatro);
+      SolveWithIns(summary.matched_source,
+                   summary.matched_target,
+                   options.solver ? options.solver : solve_quatro,
+                   quatro.noise_bound,
+                   options.ins);
+  AddCovariance(summary.matched_source,
+                summary.matched_target,
+                quatro.noise_bound,
+                options.covariance,
+                &summary.solution);
   stopwatch.Lap();
   for (const StageTime& time : summary.solution.stage_times) {
     summary.stage_times.push_back(time);
     if (options.progress) options.progress(time);
   }
+  if (options.refinement.method != RefinementMethod::kNone &&
+      summary.solution.IsUsable()) {
+    RefinementOptions refinement = options.refinement;
+    refinement.alignment.num_threads = options.num_threads;
+    summary.refinement = Refine({source_cloud.tree, source_cloud.normals},
+                                {target_cloud.tree, target_cloud.normals},
+                                summary.matched_source,
+                                summary.matched_target,
+                                quatro.noise_bound,
+                                *summary.solution.target_from_source,
+                                refinement);
+    summary.solution.target_from_source =
+        summary.refinement->target_from_source;
+    finish_stage("refinement");
+  }
   std::optional<GeometricEvidence> geometry;
   if (summary.solution.IsUsable()) {
-    EvidenceOptions evidence;
-    evidence.voxel_size = voxel_size;
-    geometry = MeasureGeometricEvidence(AsSurface(source_cloud),
-                                        AsSurface(target_cloud),
-                                        *summary.solution.target_from_source,
-                                        evidence,
-                                        options.num_threads);
+    geometry = WeighGeometry(source_cloud, target_cloud, options, &summary);
     finish_stage("evidence");
   }
   VerdictOptions verdict = options.verdict;
   verdict.rival.seed = options.seed;
   verdict.rival.num_threads = options.num_threads;
+  verdict.rival.up_in_target = options.ins.up;
   summary.verdict = Judge(summary.matched_source,
                           summary.matched_target,
                           summary.solution,

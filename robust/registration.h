@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The front door: two point clouds in, a pose and how it came about out.
 //
-//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> verdict
+//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> refinement
+//          -> verdict
 //
 // Source: Section III.A of the Quatro paper for the front end.
 
@@ -20,9 +21,13 @@
 #include "features/stopwatch.h"
 #include "features/tuple_test.h"
 #include "features/types.h"
+#include "robust/ins.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
+#include "robust/refinement.h"
+#include "robust/structure_hold.h"
 #include "robust/verdict.h"
+#include "solvers/pose_covariance.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -38,9 +43,6 @@ struct FrontEndOptions {
   bool IsValid(std::string* error) const;
 };
 
-using PoseSolver = std::function<PoseSummary(const PointsRef& source,
-                                             const PointsRef& target)>;
-
 struct RegistrationOptions {
   FrontEndOptions front_end;
   QuatroOptions quatro;
@@ -48,8 +50,22 @@ struct RegistrationOptions {
   // Another estimator from matched points in place of Quatro.
   PoseSolver solver;
 
+  // Roll and pitch from an INS, and what is up. Whatever solves is given the
+  // matches in the level frames, `solver` too; a solver that knows an INS of
+  // its own needs none here. Its fusion takes quatro.noise_bound.
+  InsOptions ins;
+
   VerdictOptions verdict;
-  // For all parts: those of front_end.tuple and quatro are replaced by these.
+
+  // Of these, what the estimator and the voxels decide is replaced.
+  PoseCovarianceOptions covariance;
+  StructureHoldOptions structure_hold;
+
+  // On the voxel means and their normals. None by default.
+  RefinementOptions refinement;
+
+  // For all parts: those of front_end.tuple, quatro and refinement are replaced
+  // by these.
   int num_threads = 1;  // 0: all cores. Never changes the answer.
   std::uint64_t seed = 0;
 
@@ -74,7 +90,12 @@ struct RegistrationSummary {
   Eigen::Index num_target_voxels = 0;
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  PoseSummary solution;
+  PoseSummary solution;  // Its pose is the refined one, if there is one.
+  std::optional<RefinementSummary> refinement;  // If asked for and tried.
+
+  // What the surfaces hold; the directions that they do not are among
+  // solution.covariance's, too.
+  std::optional<StructureHold> structure_hold;
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 

@@ -11,6 +11,7 @@
 #include "robust/arc_consensus.h"
 #include "robust/consensus.h"
 #include "robust/distinct_matches.h"
+#include "solvers/gravity.h"
 #include "solvers/translation.h"
 
 namespace quatro {
@@ -83,6 +84,9 @@ bool RivalOptions::IsValid(std::string* error) const {
     problem << "num_pairs = " << num_pairs << ", must be >= 1";
   } else if (max_num_matches < 2) {
     problem << "max_num_matches = " << max_num_matches << ", must be >= 2";
+  } else if (!(std::abs(up_in_target.norm() - 1.0) <= 1e-6)) {
+    problem << "up_in_target = (" << up_in_target.transpose()
+            << "), must be a unit vector";
   } else if (num_threads < 0) {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   }
@@ -95,6 +99,23 @@ std::optional<Rival> FindRival(const PointsRef& source,
                                const Rigid3& target_from_source,
                                double noise_bound,
                                const RivalOptions& options) {
+  if (options.up_in_target != Eigen::Vector3d::UnitZ()) {
+    const Rigid3 level{
+        RotationBetween(options.up_in_target, Eigen::Vector3d::UnitZ()),
+        Eigen::Vector3d::Zero()};
+    RivalOptions level_options = options;
+    level_options.up_in_target = Eigen::Vector3d::UnitZ();
+    auto rival = FindRival(source,
+                           level.Apply(target),
+                           level * target_from_source,
+                           noise_bound,
+                           level_options);
+    if (rival) {
+      rival->target_from_source = Inverse(level) * rival->target_from_source;
+    }
+    return rival;
+  }
+
   const Points moved = target_from_source.Apply(source);
   const std::vector<Eigen::Index> agreeing =
       FindAgreeing(source, target, target_from_source, noise_bound);
@@ -102,7 +123,8 @@ std::optional<Rival> FindRival(const PointsRef& source,
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   std::vector<Rigid3> turns;  // D
 
-  if (agreeing.size() >= 2) {
+  const bool has_same_matches = agreeing.size() >= 2;
+  if (has_same_matches) {
     middle = Columns(target, agreeing).rowwise().mean();
     std::vector<Eigen::Index> some = agreeing;
     some.resize(
@@ -143,7 +165,7 @@ std::optional<Rival> FindRival(const PointsRef& source,
     }
     Rival rival;
     rival.target_from_source = turn * target_from_source;
-    rival.has_same_matches = !agreeing.empty() && &turn == &turns.front();
+    rival.has_same_matches = has_same_matches && &turn == &turns.front();
     rival.num_agreeing = static_cast<Eigen::Index>(
         FindAgreeing(source, target, rival.target_from_source, noise_bound)
             .size());

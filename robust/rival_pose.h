@@ -29,7 +29,7 @@ namespace quatro {
 struct RivalPoseOptions {
   double min_shift = 2.0;         // [m]
   double max_shift = 12.0;        // [m], without a turn.
-  double max_turned_shift = 6.0;  // [m], after one.
+  double max_turned_shift = 8.0;  // [m], after one.
 
   // Structure points of each scan to look for the rival, and to compare it.
   Eigen::Index num_search_points = 300;

@@ -18,7 +18,9 @@ constexpr double kMaxNumCells = 1 << 23;
 
 // Of the normal's azimuth, in [0, kNumSectors); opposite normals have the same.
 double SectorOf(const Eigen::Vector3d& normal) {
-  const double turns = std::atan2(normal.y(), normal.x()) / M_PI;
+  const double turns = std::atan2(static_cast<float>(normal.y()),
+                                  static_cast<float>(normal.x())) /
+                       M_PI;
   return (turns - std::floor(turns)) * kNumSectors;
 }
 
@@ -32,7 +34,7 @@ StructureSample SampleStructure(const SurfaceCloud& cloud,
                                 Eigen::Index num_wanted) {
   std::vector<Eigen::Index> all;
   for (Eigen::Index i = 0; i < cloud.normals.cols(); ++i) {
-    if (IsStructure(cloud.normals.col(i))) all.push_back(i);
+    if (IsStructure(cloud.normals.col(i), cloud.up)) all.push_back(i);
   }
   const auto num_all = static_cast<Eigen::Index>(all.size());
   const Eigen::Index num = std::min(num_all, num_wanted);
@@ -54,7 +56,7 @@ StructureGrid::StructureGrid(const SurfaceCloud& cloud, double max_distance)
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Eigen::Array3d point = points.col(i) - sensor_;
     if (point.matrix().norm() > max_range_ ||
-        !IsStructure(cloud.normals.col(i))) {
+        !IsStructure(cloud.normals.col(i), cloud.up)) {
       continue;
     }
     if (structure.empty()) low = high = point;

@@ -15,10 +15,15 @@ namespace {
 constexpr double kMatchesIntercept = -6.0;
 constexpr double kMatchesWeights[] = {1.0, 1.0};
 constexpr double kCloudsIntercept = -6.0;
-constexpr double kCloudsWeights[] = {1.0, 1.0, 4.0, 1.0, 1.0, 1.0};
+constexpr double kCloudsWeights[] = {1.0, 1.0, 4.0, 1.0, 1.0, 1.0, 1.0};
 
 // What is assumed where free space is not known: it says little either way.
 constexpr double kUsualContradictedShare = 0.1;
+
+// 0 below `low`, 1 above `high`.
+double Ramp(double x, double low, double high) {
+  return std::clamp((x - low) / (high - low), 0.0, 1.0);
+}
 
 }  // namespace
 
@@ -27,18 +32,23 @@ std::vector<Feature> MakeFeatures(
     const std::optional<Rival>& rival,
     const std::optional<GeometricEvidence>& geometry) {
   std::vector<Feature> features = {
-      {"surprise", std::log1p(std::clamp(-log10_false_alarms, 0.0, 100.0))},
-      {"margin", rival ? std::clamp(rival->margin, 0.0, 6.0) : 6.0}};
+      {"surprise",
+       Ramp(std::log1p(std::max(0.0, -log10_false_alarms)), 0.0, 3.0)},
+      {"margin", rival ? Ramp(rival->margin, 0.0, 3.0) : 1.0}};
   if (!geometry) return features;
-  features.push_back({"overlap", geometry->structure_overlap});
+  const double contradicted = geometry->free_space.ContradictedShare().value_or(
+      kUsualContradictedShare);
+  const double rival_contradicted =
+      geometry->rival_free_space.ContradictedShare().value_or(contradicted);
+  features.push_back({"overlap", Ramp(geometry->structure_overlap, 0.0, 0.3)});
+  features.push_back({"free_space", Ramp(1.0 - contradicted, 0.5, 0.95)});
   features.push_back(
-      {"free_space",
-       1.0 - geometry->contradicted_share.value_or(kUsualContradictedShare)});
-  features.push_back(
-      {"distinctness", std::clamp(geometry->Distinctness(), 0.0, 0.5)});
+      {"distinctness", Ramp(geometry->Distinctness(), 0.0, 0.15)});
+  features.push_back({"rival_contradicted",
+                      Ramp(rival_contradicted - contradicted, 0.0, 0.1)});
   features.push_back(
       {"held",
-       3.0 + std::log10(std::clamp(geometry->weakest_share, 1e-3, 0.5))});
+       Ramp(std::log10(std::max(1e-3, geometry->weakest_share)), -2.0, -0.8)});
   return features;
 }
 

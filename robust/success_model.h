@@ -4,14 +4,24 @@
 //
 //   P = 1 / (1 + exp(-(w_0 + sum_j w_j x_j))),                             (1)
 //
-// one model for matches alone, one for matches and clouds. The features x_j are
-// bounded, so that no single one decides, and the weights are >= 0: more
-// evidence never lowers P.
+// one model for matches alone, one for matches and clouds. The features are
+// ramps from 0 to 1, so that no single one decides, and w_j >= 0: more evidence
+// never lowers P.
 //
-// The weights were fitted by experiments/calibrate_verdict.py, which says how,
-// and on which scans; it prints what success_model.cc holds. P is calibrated
-// for such scans, half of which share no place: where wrong answers are rarer,
-// P is too low, and the other way round.
+//   surprise            ln(1 - log10 NFA) of the pose      0 .. 3
+//   margin              over the rival of the matches      0 .. 3
+//   overlap             structure that is met              0 .. 0.3
+//   free_space          1 - contradicted share             0.5 .. 0.95
+//   distinctness        overlap over that of the rival     0 .. 0.15
+//   rival_contradicted  its contradicted share over ours   0 .. 0.1
+//   held                log10 of the weakest share         -2 .. -0.8
+//
+// (robust/false_alarms.h, robust/rival.h, robust/evidence.h.) The weights were
+// fitted by experiments/calibrate_verdict.py, which says how; it prints what
+// success_model.cc holds. P is calibrated for the scans there, half of which
+// share no place: where wrong answers are rarer, P is too low, and the other
+// way round. The model of matches alone was fitted without places that have a
+// twin, since matches cannot tell twins apart.
 
 #ifndef QUATRO_ROBUST_SUCCESS_MODEL_H_
 #define QUATRO_ROBUST_SUCCESS_MODEL_H_

@@ -13,14 +13,14 @@
 namespace quatro {
 namespace {
 
-double Percent(double share) { return std::round(100.0 * share); }
+long Percent(double share) { return std::lround(100.0 * share); }
 
 // "2.3 m and 180 deg from the pose".
 std::string DescribeStep(const Rigid3& from, const Rigid3& to) {
   std::ostringstream text;
   text.precision(2);
   text << (to.translation - from.translation).norm() << " m and "
-       << std::round(AngleBetween(from.rotation, to.rotation) * 180.0 / M_PI)
+       << std::lround(AngleBetween(from.rotation, to.rotation) * 180.0 / M_PI)
        << " deg from the pose";
   return text.str();
 }
@@ -53,11 +53,25 @@ std::string DescribeDoubts(const Verdict& verdict, const Rigid3& pose) {
     text << "; the scans fit as well "
          << DescribeStep(pose, geometry.rival.rival_target_from_source);
   }
-  if (geometry.contradicted_share.value_or(0.0) > 0.3) {
-    text << "; " << Percent(*geometry.contradicted_share)
+  const auto contradicted = geometry.free_space.ContradictedShare();
+  if (contradicted.value_or(0.0) > 0.3) {
+    text << "; " << Percent(*contradicted)
          << " % of the surfaces stand where the other scan saw through";
   }
   return text.str();
+}
+
+// A direction of the pose that its own inliers do not hold; null if there is
+// none, or no covariance.
+const UnheldDirection* FindLoose(const PoseSummary& summary) {
+  if (!summary.covariance) return nullptr;
+  for (const UnheldDirection& direction : summary.covariance->unheld) {
+    if (direction.reason == NotHeld::kNoData ||
+        direction.reason == NotHeld::kWithinNoise) {
+      return &direction;
+    }
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -136,6 +150,11 @@ Verdict Judge(const PointsRef& source,
                        ? Status::kRegistered
                        : Status::kAmbiguous;
   verdict.reason = DescribeMatches(verdict);
+  if (const UnheldDirection* loose = FindLoose(summary)) {
+    verdict.status = Status::kDegenerate;
+    verdict.reason += "; they do not hold the " + loose->Describe();
+    return verdict;
+  }
   if (geometry) {
     std::ostringstream text;
     text << "; " << Percent(geometry->structure_overlap)

@@ -25,6 +25,13 @@ Eigen::Matrix3d WorldFromBody(const Attitude& attitude) {
   return RotationZ(attitude.yaw) * LevelFromBody(attitude.roll, attitude.pitch);
 }
 
+Attitude AttitudeOf(const Eigen::Matrix3d& world_from_body) {
+  const Eigen::Matrix3d& R = world_from_body;
+  return {std::atan2(R(2, 1), R(2, 2)),
+          std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
+          Yaw(R)};
+}
+
 Eigen::Matrix3d LevelFromBody(double roll, double pitch) {
   return (Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))

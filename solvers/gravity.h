@@ -27,6 +27,9 @@ struct Attitude {
 // (1)
 Eigen::Matrix3d WorldFromBody(const Attitude& attitude);
 
+// Its inverse, with |pitch| <= pi / 2; at pi / 2 only one of many.
+Attitude AttitudeOf(const Eigen::Matrix3d& world_from_body);
+
 // (3)
 Eigen::Matrix3d LevelFromBody(double roll, double pitch);
 

@@ -15,3 +15,17 @@ endif()
 if(QUATRO_BUILD_TESTS)
   find_package(GTest REQUIRED)
 endif()
+
+# To compare with; never needed.
+if(QUATRO_WITH_OPEN3D)
+  find_package(Open3D REQUIRED)  # 0.16; it accepts no version but its own.
+endif()
+if(QUATRO_WITH_PCL)
+  # By hand: its own configuration brings in VTK, whose targets need MPI.
+  find_path(PCL_INCLUDE_DIR pcl/features/fpfh.h PATH_SUFFIXES pcl-1.13 pcl-1.14 pcl-1.12 REQUIRED)
+  set(PCL_FOUND_LIBRARIES "")
+  foreach(name IN ITEMS features search kdtree common)
+    find_library(PCL_${name}_LIBRARY pcl_${name} REQUIRED)
+    list(APPEND PCL_FOUND_LIBRARIES ${PCL_${name}_LIBRARY})
+  endforeach()
+endif()

@@ -11,9 +11,12 @@
 #include <vector>
 
 #include "experiments/matches_csv.h"
+#include "features/cloud_io.h"
+#include "features/point_cloud.h"
 #include "solvers/gravity.h"
 #include "solvers/rigid3.h"
 #include "tests/support/matched_problems.h"
+#include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
 namespace quatro {
@@ -22,6 +25,17 @@ namespace {
 using nlohmann::json;
 
 constexpr double kDegree = M_PI / 180.0;
+
+Eigen::Matrix3d RotationOf(const json& report) {
+  Eigen::Matrix3d rotation;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      rotation(static_cast<int>(row), static_cast<int>(column)) =
+          report.at("target_from_source").at(row).at(column).get<double>();
+    }
+  }
+  return rotation;
+}
 
 // A source rolled by 10 deg and pitched by -5 deg, a level target.
 class InsProgramTest : public ProgramTest {
@@ -59,14 +73,7 @@ class InsProgramTest : public ProgramTest {
   }
 
   double RotationErrorDeg(const json& report) const {
-    Eigen::Matrix3d rotation;
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t column = 0; column < 3; ++column) {
-        rotation(static_cast<int>(row), static_cast<int>(column)) =
-            report.at("target_from_source").at(row).at(column).get<double>();
-      }
-    }
-    return AngleBetween(rotation, true_rotation_) / kDegree;
+    return AngleBetween(RotationOf(report), true_rotation_) / kDegree;
   }
 
   const std::vector<std::string> attitudes_ = {"--source_rpy_deg=10,-5,0",
@@ -79,7 +86,8 @@ class InsProgramTest : public ProgramTest {
 
 TEST_F(InsProgramTest, AllWaysFindTheTiltedPose) {
   for (const std::string mode : {"relative", "leveled", "fused"}) {
-    for (const std::string method : {"quatro", "quatro_exact"}) {
+    for (const std::string method :
+         {"auto", "quatro", "quatro_exact", "quatro_ins"}) {
       std::vector<std::string> flags = attitudes_;
       flags.insert(
           flags.end(),
@@ -138,13 +146,76 @@ TEST_F(InsProgramTest, GravityWithoutDirection) {
   }
 }
 
+TEST_F(InsProgramTest, MethodThatNeedsAnIns) {
+  for (const std::string gravity : {"0,0,1", "1,0,0"}) {
+    ExpectRefused({"--method=quatro_ins", "--gravity=" + gravity},
+                  "--method=quatro_ins",
+                  "--source_rpy_deg and --target_rpy_deg");
+  }
+}
+
 TEST_F(InsProgramTest, MethodWithoutIns) {
   std::vector<std::string> flags = attitudes_;
   flags.insert(flags.end(), {"--ins_mode=leveled", "--method=teaser"});
-  ExpectRefused(flags, "--ins_mode", "quatro or quatro_exact");
-  ExpectRefused({"--gravity=1,0,0", "--method=arc_consensus"},
+  ExpectRefused(flags, "--ins_mode", "needs one of --method=auto, quatro");
+  ExpectRefused({"--gravity=1,0,0", "--method=teaser"},
                 "--gravity",
-                "quatro or quatro_exact");
+                "needs one of --method=auto, quatro");
+}
+
+// Two scans of a street corner, the source rolled by 12 deg and the target
+// pitched by -3 deg, in axes with x up.
+TEST_F(InsProgramTest, RegistersTiltedScansInAnyAxes) {
+  const Rigid3 true_pose{RotationZ(0.7), {1.0, -0.8, 0.1}};
+  const Eigen::Matrix3d level_from_source = LevelFromBody(12.0 * kDegree, 0.0);
+  const Eigen::Matrix3d level_from_target = LevelFromBody(0.0, -3.0 * kDegree);
+  const Eigen::Matrix3d axes =
+      RotationBetween(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX());
+  const auto write = [&](const std::string& name,
+                         const Eigen::Matrix3d& level_from_body,
+                         const Points& level) {
+    PointCloud cloud;
+    cloud.points = axes * level_from_body.transpose() * level;
+    std::string error;
+    EXPECT_TRUE(WriteCloud(cloud, PathOf(name), &error)) << error;
+    return PathOf(name);
+  };
+  const std::vector<std::string> args = {
+      "--source=" + write("a.ply",
+                          level_from_source,
+                          Inverse(true_pose).Apply(
+                              RandomStreet(12000, 0.01, /*seed=*/1))),
+      "--target=" + write("b.ply",
+                          level_from_target,
+                          RandomStreet(12000, 0.01, /*seed=*/2)),
+      "--polish=off",
+      "--gravity=2,0,0"};
+  const Eigen::Matrix3d expected = axes * level_from_target.transpose() *
+                                   true_pose.rotation * level_from_source *
+                                   axes.transpose();
+  const auto error_deg = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> all = args;
+    all.insert(all.end(), flags.begin(), flags.end());
+    const ProgramRun run = RunProgram("quatro_register", all);
+    const json report = json::parse(run.out, nullptr, false);
+    EXPECT_TRUE(report.is_object()) << run.err;
+    if (!report.is_object() || report["target_from_source"].is_null()) {
+      return 180.0;
+    }
+    return AngleBetween(RotationOf(report), expected) / kDegree;
+  };
+  const std::vector<std::string> ins = {"--source_rpy_deg=12,0,0",
+                                        "--target_rpy_deg=0,-3,0"};
+  for (const std::string mode : {"leveled", "fused"}) {
+    for (const std::string method : {"quatro", "quatro_ins", "arc_consensus"}) {
+      EXPECT_LT(
+          error_deg(
+              {"--ins_mode=" + mode, "--method=" + method, ins[0], ins[1]}),
+          1.0)
+          << mode << ", " << method;
+    }
+  }
+  EXPECT_GT(error_deg({}), 10.0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -139,7 +140,8 @@ TEST(JsonReportTest, EvidenceIsNullWhereItWasNotMeasured) {
 
 TEST(JsonReportTest, GeometryIsThereWhereItWasMeasured) {
   const auto evidence = [](const Verdict& verdict) {
-    return MakeReport("quatro", verdict, PoseSummary(), {}, 0.0)["evidence"];
+    return MakeReport(
+        "quatro", verdict, PoseSummary(), {}, 0.0)["evidence"]["geometry"];
   };
   Verdict verdict;
   EXPECT_FALSE(evidence(verdict).contains("rival_overlap"));
@@ -148,11 +150,79 @@ TEST(JsonReportTest, GeometryIsThereWhereItWasMeasured) {
   verdict.geometry->rival.yaw = -M_PI;
   verdict.geometry->rival.shift << 1.0, 2.0, 3.0;
   EXPECT_TRUE(evidence(verdict)["contradicted_share"].is_null());
-  verdict.geometry->contradicted_share = 0.5;
-  EXPECT_EQ(evidence(verdict)["contradicted_share"], 0.5);
+  verdict.geometry->free_space = {10, 30};
+  verdict.geometry->rival_free_space = {1, 1};
+  EXPECT_EQ(evidence(verdict)["contradicted_share"], 0.25);
+  EXPECT_EQ(evidence(verdict)["contradicted"], 10);
+  EXPECT_EQ(evidence(verdict)["rival_contradicted_share"], 0.5);
   EXPECT_EQ(evidence(verdict)["rival_overlap"], 0.25);
   EXPECT_EQ(evidence(verdict)["rival_yaw_deg"], -180.0);
-  EXPECT_EQ(evidence(verdict)["rival_shift_m"], Json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(evidence(verdict)["rival_shift_m"].dump(), "[1.0,2.0,3.0]");
+}
+
+TEST(JsonReportTest, CovarianceIsSixRowsBitForBitOrNull) {
+  const auto report_on = [](const PoseSummary& summary) {
+    return Json::parse(
+        MakeReport("quatro", Verdict(), summary, {}, 0.0).dump());
+  };
+  EXPECT_TRUE(report_on(PoseSummary())["covariance"].is_null());
+  EXPECT_TRUE(report_on(PoseSummary())["unheld_directions"].empty());
+
+  PoseSummary summary;
+  PoseCovariance& uncertainty = summary.covariance.emplace();
+  uncertainty.sigma = 0.1;
+  UnheldDirection direction;
+  direction.axis = Eigen::Vector3d::UnitX();
+  direction.point = {1.0, 2.0, 3.0};
+  direction.standard_deviation = 0.02;
+  direction.reason = NotHeld::kUncertain;
+  uncertainty.unheld.push_back(direction);
+  direction.freedom = Freedom::kTranslation;
+  direction.reason = NotHeld::kNoSurface;
+  direction.standard_deviation.reset();
+  uncertainty.unheld.push_back(direction);
+  Json report = report_on(summary);
+  EXPECT_TRUE(report["covariance"].is_null());
+  ASSERT_EQ(report["unheld_directions"].size(), 2u);
+  EXPECT_EQ(report["unheld_directions"][0],
+            Json({{"freedom", "rotation"},
+                  {"reason", "uncertain"},
+                  {"axis", {1.0, 0.0, 0.0}},
+                  {"point", {1.0, 2.0, 3.0}},
+                  {"standard_deviation", 0.02},
+                  {"text", uncertainty.unheld[0].Describe()}}));
+  EXPECT_EQ(report["unheld_directions"][1]["freedom"], "translation");
+  EXPECT_EQ(report["unheld_directions"][1]["reason"], "no_surface");
+  EXPECT_TRUE(report["unheld_directions"][1]["point"].is_null());
+  EXPECT_TRUE(report["unheld_directions"][1]["standard_deviation"].is_null());
+  EXPECT_EQ(report["match_sigma"]["assumed"], 0.1);
+  EXPECT_TRUE(report["match_sigma"]["from_residuals"].is_null());
+
+  uncertainty.covariance =
+      Matrix6::NullaryExpr([](Eigen::Index row, Eigen::Index column) {
+        return static_cast<double>(1 + 6 * row + column) / 3.0;
+      });
+  uncertainty.covariance_at_center = 2.0 * *uncertainty.covariance;
+  report = report_on(summary);
+  ASSERT_EQ(report["covariance"].size(), 6u);
+  for (std::size_t row = 0; row < 6; ++row) {
+    ASSERT_EQ(report["covariance"][row].size(), 6u);
+    for (std::size_t column = 0; column < 6; ++column) {
+      const double expected = static_cast<double>(1 + 6 * row + column) / 3.0;
+      EXPECT_EQ(report["covariance"][row][column], expected);
+      EXPECT_EQ(report["covariance_about"]["covariance"][row][column],
+                2.0 * expected);
+    }
+  }
+}
+
+TEST(JsonReportTest, StructureThatWasNotMeasuredIsNull) {
+  EXPECT_TRUE(Describe(std::nullopt).is_null());
+  StructureHold hold;
+  hold.weakest_level_share = 0.25;
+  hold.weakest_level_axis = Eigen::Vector3d::UnitY();
+  EXPECT_EQ(Describe(hold)["weakest_level_share"], 0.25);
+  EXPECT_EQ(Describe(hold)["weakest_level_axis"], Json({0.0, 1.0, 0.0}));
 }
 
 TEST(JsonReportTest, OptionsAreDescribedByTheirNamesInTheLibrary) {

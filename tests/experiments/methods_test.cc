@@ -10,19 +10,25 @@
 
 #include "experiments/synthetic.h"
 #include "robust/arc_consensus.h"
+#include "robust/fgr.h"
+#include "robust/ransac.h"
 #include "robust/teaser.h"
+#include "tests/support/random_problems.h"
 
 namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::UnorderedElementsAre;
 
 PoseSummary Solve(const std::string& name,
                   const MatchedProblem& problem,
                   const QuatroOptions& options = {}) {
   std::string error;
-  const PoseSolver solve = MakeSolver(name, options, &error);
+  InsOptions ins;  // Level.
+  if (name == "quatro_ins") ins.mode = InsMode::kLeveled;
+  const PoseSolver solve = MakeSolver(name, options, ins, &error);
   EXPECT_TRUE(solve) << name;
   EXPECT_EQ(error, "");
   return solve(problem.source, problem.target);
@@ -36,8 +42,14 @@ void ExpectSameBits(const PoseSummary& a, const PoseSummary& b) {
 
 TEST(Methods, AllNamesResolveAndSolve) {
   EXPECT_THAT(MethodNames(),
-              UnorderedElementsAre(
-                  "auto", "quatro", "quatro_exact", "arc_consensus", "teaser"));
+              IsSupersetOf({"auto",
+                            "quatro",
+                            "quatro_exact",
+                            "arc_consensus",
+                            "teaser",
+                            "fgr",
+                            "ransac1k",
+                            "ransac10k"}));
   const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.05, 1);
   for (const std::string& name : MethodNames()) {
     const PoseSummary summary = Solve(name, problem);
@@ -63,6 +75,14 @@ TEST(Methods, AreTheSolversTheyAreNamedFor) {
                  SolveArcConsensus(problem.source, problem.target, {}));
   ExpectSameBits(Solve("teaser", problem),
                  SolveTeaser(problem.source, problem.target, {}));
+  ExpectSameBits(Solve("fgr", problem),
+                 SolveFgr(problem.source, problem.target, {}));
+  ExpectSameBits(Solve("ransac10k", problem),
+                 SolveRansac(problem.source, problem.target, {}));
+  RansacOptions thousand;
+  thousand.max_iterations = 1000;
+  ExpectSameBits(Solve("ransac1k", problem),
+                 SolveRansac(problem.source, problem.target, thousand));
 }
 
 TEST(Methods, TakeWhatAppliesToThemFromTheOptions) {
@@ -81,7 +101,7 @@ TEST(Methods, TakeWhatAppliesToThemFromTheOptions) {
 }
 
 TEST(Methods, AnUnknownNameListsAll) {
-  for (const char* name : {"", "Quatro", "ransac"}) {
+  for (const char* name : {"", "Quatro", "Ransac"}) {
     std::string error;
     EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
     EXPECT_THAT(error, HasSubstr("--method=" + std::string(name)));
@@ -89,6 +109,105 @@ TEST(Methods, AnUnknownNameListsAll) {
       EXPECT_THAT(error, HasSubstr(" " + known));
     }
   }
+}
+
+TEST(Methods, QuatroInsNeedsAnIns) {
+  std::string error;
+  EXPECT_FALSE(MakeSolver("quatro_ins", {}, &error));
+  EXPECT_THAT(error, HasSubstr("needs an INS"));
+  EXPECT_THAT(error, HasSubstr("--source_rpy_deg"));
+  // An axis is not one.
+  InsOptions ins;
+  ins.up = Eigen::Vector3d::UnitX();
+  EXPECT_FALSE(MakeSolver("quatro_ins", {}, ins, &error));
+}
+
+TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
+  const SlopeProblem problem = MakeSlopeProblem(200, 0.5, 0.05, 0.2, 0.0, 1);
+  QuatroOptions options;
+  options.polish = false;
+  InsOptions ins;
+  ins.mode = InsMode::kLeveled;
+  ins.source_attitude = problem.source_attitude;
+  ins.target_attitude = problem.target_attitude;
+  for (const std::string& name : MethodNames()) {
+    std::string error;
+    const PoseSolver solve = MakeSolver(name, options, ins, &error);
+    const PoseSolver level = MakeLevelSolver(name, options, ins, &error);
+    ASSERT_EQ(static_cast<bool>(level), static_cast<bool>(solve)) << name;
+    const bool is_about_the_vertical = name == "auto" ||
+                                       name == "arc_consensus" ||
+                                       name.rfind("quatro", 0) == 0;
+    if (!is_about_the_vertical) {
+      EXPECT_FALSE(solve);
+      EXPECT_THAT(error, HasSubstr("--ins_mode needs one of --method=auto, "));
+      EXPECT_THAT(error, HasSubstr("not " + name));
+      continue;
+    }
+    ASSERT_TRUE(solve) << error;
+    const MatchedProblem& matches = problem.matches;
+    const PoseSummary summary = solve(matches.source, matches.target);
+    ASSERT_TRUE(summary.IsUsable()) << name;
+    EXPECT_LT(AngleBetween(summary.target_from_source->rotation,
+                           matches.true_target_from_source.rotation),
+              0.01)
+        << name;
+    ExpectSameBits(
+        SolveWithIns(matches.source, matches.target, level, 0.3, ins), summary);
+  }
+}
+
+TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
+  EXPECT_THAT(CloudMethodNames(),
+              UnorderedElementsAre("quatro_c2f", "icp", "gicp", "vgicp"));
+  for (const std::string& name : CloudMethodNames()) {
+    std::string error;
+    EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
+    EXPECT_THAT(error, HasSubstr(name + " works on clouds, not on matches"));
+    EXPECT_TRUE(FindCloudSolver(name)) << name;
+    EXPECT_THAT(DescribeMethods(), HasSubstr(name + " ")) << name;
+  }
+  for (const std::string& name : MethodNames()) {
+    EXPECT_FALSE(FindCloudSolver(name)) << name;
+  }
+  EXPECT_FALSE(FindCloudSolver("nothing"));
+}
+
+TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
+  PointCloud source;
+  PointCloud target;
+  source.points = RandomStreet(3000, 0.01, 1);
+  target.points =
+      RandomStreet(3000, 0.01, 2).colwise() + Eigen::Vector3d(0.2, -0.1, 0.0);
+  RegistrationOptions options;
+  for (const std::string& name : CloudMethodNames()) {
+    const RegistrationSummary summary =
+        FindCloudSolver(name)(source, target, options);
+    ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
+    EXPECT_TRUE(summary.refinement->is_accepted) << name;
+    const bool is_global = name == "quatro_c2f";
+    EXPECT_EQ(RefinementName(summary.refinement->method),
+              is_global ? "gicp" : name);
+    EXPECT_EQ(summary.verdict.IsRegistered(), is_global) << name;
+    EXPECT_LE((summary.target_from_source()->translation -
+               Eigen::Vector3d(0.2, -0.1, 0.0))
+                  .norm(),
+              0.1)
+        << name;
+  }
+}
+
+TEST(Methods, RefinementsAreKnownByTheirNames) {
+  for (const char* name : {"none", "icp", "gicp", "vgicp"}) {
+    RefinementMethod method{};
+    std::string error;
+    ASSERT_TRUE(ParseRefinement(name, &method, &error)) << error;
+    EXPECT_STREQ(RefinementName(method), name);
+  }
+  RefinementMethod method{};
+  std::string error;
+  EXPECT_FALSE(ParseRefinement("GICP", &method, &error));
+  EXPECT_THAT(error, HasSubstr("--refine=GICP"));
 }
 
 TEST(Methods, AutoTakesArcConsensusAboveTwentyThousandMatches) {

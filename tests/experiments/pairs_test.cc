@@ -151,6 +151,32 @@ TEST_F(PairsTest, FindsAllPosesButTiltedOnes) {
   EXPECT_GE(num_registered, 45);
 }
 
+// A street scanned 10 m on: what the matches say of the pose is a degree's
+// tenths and centimetres, not nothing and not metres.
+TEST_F(PairsTest, CovarianceOfARealPairIsPlausible) {
+  const std::string source = "kitti_00/000010.bin";
+  const std::string target = "kitti_00/000000.bin";
+  if (!Has(source) || !Has(target)) GTEST_SKIP() << "needs kitti_00";
+  const ProgramRun run = RunProgram(
+      "quatro_register",
+      {"--source=" + DataPath(source), "--target=" + DataPath(target)});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto report = nlohmann::json::parse(run.out);
+  const auto& about = report["covariance_about"];
+  ASSERT_FALSE(about.is_null()) << report["unheld_directions"];
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double deviation = std::sqrt(about["covariance"][i][i].get<double>());
+    EXPECT_GT(deviation, i < 3 ? 1e-5 : 1e-3) << i;
+    EXPECT_LT(deviation, i < 3 ? 0.01 : 0.1) << i;
+    EXPECT_GE(report["covariance"][i][i].get<double>(),
+              0.99 * about["covariance"][i][i].get<double>())
+        << i;
+  }
+  EXPECT_GT(report["match_sigma"]["from_residuals"].get<double>(), 0.02);
+  EXPECT_LT(report["match_sigma"]["from_residuals"].get<double>(), 0.2);
+  EXPECT_GT(report["structure_hold"]["weakest_level_share"].get<double>(), 0.0);
+}
+
 TEST_F(PairsTest, DoesNotRegisterDifferentPlaces) {
   if (!Has("pairs_negative.csv")) GTEST_SKIP() << "needs pairs_negative.csv";
   const auto rows = ReadTable("pairs_negative.csv");

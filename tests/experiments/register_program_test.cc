@@ -256,6 +256,10 @@ TEST_F(RegisterProgramTest, UnknownMethod) {
   ExpectRefusedFlag("--method=magic", "--method=magic", "must be");
 }
 
+TEST_F(RegisterProgramTest, UnknownRefinement) {
+  ExpectRefusedFlag("--refine=best", "--refine=best", "none, icp, gicp");
+}
+
 TEST_F(RegisterProgramTest, StrayArgument) {
   ExpectRefusedFlag("stray", "stray", "not a flag");
 }
@@ -332,6 +336,47 @@ TEST_F(RegisterProgramTest, FindsThePoseFarFromTheOrigin) {
   EXPECT_THAT(Yaw(pose.rotation), IsAngleNear(1.9, 2.0 * M_PI / 180.0));
   // Where the points are: at the origin a hundredth of a degree is 2 km.
   EXPECT_LT((pose * offset - (TruePose().translation + offset)).norm(), 0.2);
+}
+
+TEST_F(RegisterProgramTest, RefinesThePoseAndSaysByHowMuch) {
+  WriteYard();
+  const json plain = json::parse(Register({}).out);
+  EXPECT_TRUE(plain["refinement"].is_null());
+  const ProgramRun run = Register({"--refine=gicp"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const json report = json::parse(run.out);
+  const json& refinement = report["refinement"];
+  EXPECT_EQ(refinement["method"], "gicp");
+  EXPECT_EQ(refinement["accepted"], true) << refinement["message"];
+  EXPECT_EQ(refinement["termination"], "converged");
+  EXPECT_GT(refinement["inliers"], 1000);
+  EXPECT_GT(refinement["iterations"], 0);
+  EXPECT_GT(refinement["moved_m"], 0.0);
+  EXPECT_GT(refinement["moved_deg"], 0.0);
+  EXPECT_EQ(refinement["unrefined_target_from_source"],
+            plain["target_from_source"]);
+  EXPECT_GT(report["timings_ms"]["refinement"], 0.0);
+  EXPECT_LE((PoseOf(report).translation - TruePose().translation).norm(), 0.05);
+
+  const json c2f = json::parse(Register({"--method=quatro_c2f"}).out);
+  EXPECT_EQ(c2f["target_from_source"], report["target_from_source"]);
+}
+
+// The truth is 109 deg away from no motion.
+TEST_F(RegisterProgramTest, LocalMethodsDoNotVouchForWhatTheyFind) {
+  WriteYard();
+  for (const std::string method : {"icp", "gicp", "vgicp"}) {
+    const ProgramRun run = Register({"--method=" + method});
+    EXPECT_EQ(run.exit_code, 1) << run.err;
+    EXPECT_EQ(json::parse(run.out)["refinement"]["method"], method);
+    ExpectBadInput("quatro_register",
+                   {"--source=" + PathOf("source.ply"),
+                    "--target=" + PathOf("target.ply"),
+                    "--method=" + method,
+                    "--refine=icp"},
+                   "--refine",
+                   "--method=" + method);
+  }
 }
 
 TEST_F(RegisterProgramTest, ThreadsChangeNothing) {

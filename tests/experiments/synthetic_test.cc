@@ -147,6 +147,43 @@ TEST(TimProblem, LengthsAgreeAndOutliersAreTurned) {
   EXPECT_LE(num_true, 110u);  // Some are turned by next to nothing.
 }
 
+TEST(SlopeProblem, IsTiltedAndTheInsKnowsIt) {
+  for (const double tilt : {0.0, 0.1, 0.25}) {
+    const SlopeProblem problem = MakeSlopeProblem(200, 0.5, 0.01, tilt, 0.0, 1);
+    const Eigen::Matrix3d rotation =
+        problem.matches.true_target_from_source.rotation;
+    EXPECT_NEAR(std::acos(std::min(1.0, rotation(2, 2))), tilt, 1e-7);
+    EXPECT_LE((WorldFromBody(problem.target_attitude).transpose() *
+                   WorldFromBody(problem.source_attitude) -
+               rotation)
+                  .norm(),
+              1e-9);
+    const auto true_ones = TrueOnes(problem.matches, 0.06);
+    EXPECT_EQ(true_ones.size(), 100u);
+    EXPECT_EQ(true_ones.front(), 100);
+  }
+}
+
+TEST(SlopeProblem, InsIsOffByItsStandardDeviationInEachAngle) {
+  constexpr int kNumProblems = 2000;
+  Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Zero();
+  for (std::uint64_t seed = 0; seed < kNumProblems; ++seed) {
+    const SlopeProblem a = MakeSlopeProblem(1, 0.0, 0.0, 0.1, 0.0, seed);
+    const SlopeProblem b = MakeSlopeProblem(1, 0.0, 0.0, 0.1, 0.01, seed);
+    Eigen::Matrix<double, 6, 1> errors;
+    errors << b.source_attitude.roll - a.source_attitude.roll,
+        b.source_attitude.pitch - a.source_attitude.pitch,
+        b.source_attitude.yaw - a.source_attitude.yaw,
+        b.target_attitude.roll - a.target_attitude.roll,
+        b.target_attitude.pitch - a.target_attitude.pitch,
+        b.target_attitude.yaw - a.target_attitude.yaw;
+    squares += errors.cwiseAbs2();
+  }
+  for (const double square : squares) {
+    EXPECT_NEAR(std::sqrt(square / kNumProblems), 0.01, 0.0006);
+  }
+}
+
 // Every problem is counted, from 1 up to all.
 class ProtocolTest : public ::testing::Test {
  protected:
@@ -206,6 +243,22 @@ TEST_F(ProtocolTest, QuasiInliersHaveARowPerEstimatorBoundAndNumber) {
   const Table table = RunQuasiInlierProtocol(2, Count());
   ExpectTable(table, 18);
   EXPECT_EQ(num_done_, 12);
+}
+
+TEST_F(ProtocolTest, SlopesHaveARowPerInsNumberAndPolish) {
+  const Table table = RunSlopeProtocol(2, Count());
+  ExpectTable(table, 16);
+  EXPECT_EQ(num_done_, 16);
+  for (const auto& row : table.rows) {
+    const bool is_yaw_alone = row[0] == "plain" && row[2] == "off";
+    for (std::size_t i = 3; i < row.size(); ++i) {
+      if (is_yaw_alone) {
+        EXPECT_THAT(row[i], ::testing::EndsWith("(0/2)"));
+      } else if (row[1] == "30") {
+        EXPECT_THAT(row[i], ::testing::EndsWith("(2/2)")) << row[0] << row[2];
+      }
+    }
+  }
 }
 
 TEST_F(ProtocolTest, SizesHaveARowPerSizeAndRatio) {

@@ -267,5 +267,43 @@ TEST(FindNeighborhoods, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
+TEST(FindNearestNeighborhoods, RowsAreTheNearestOfEachPoint) {
+  for (const auto& [name, points] : Clouds()) {
+    const KdTree tree(points);
+    const Neighborhoods two = FindNearestNeighborhoods(tree, 7, 2);
+    const Neighborhoods one = FindNearestNeighborhoods(tree, 7, 1);
+    EXPECT_EQ(one.index, two.index) << name;
+    ASSERT_EQ(one.size(), points.cols()) << name;
+    for (Eigen::Index i = 0; i < one.size(); ++i) {
+      const auto begin = one.row_begin[static_cast<std::size_t>(i)];
+      const auto end = one.row_begin[static_cast<std::size_t>(i) + 1];
+      const std::vector<double> expected =
+          BruteForceNearestDistances(points, points.col(i), 7);
+      ASSERT_EQ(end - begin, static_cast<std::int64_t>(expected.size()));
+      std::vector<double> distances;
+      for (auto at = static_cast<std::size_t>(begin);
+           at < static_cast<std::size_t>(end);
+           ++at) {
+        const double d2 =
+            SquaredDistance(points.col(i), points.col(one.index[at]));
+        EXPECT_EQ(one.squared_distance[at], static_cast<float>(d2));
+        distances.push_back(d2);
+      }
+      EXPECT_EQ(distances, expected) << name;
+    }
+  }
+}
+
+TEST(FindNearestNeighborhoods, FewerPointsThanAskedForAreAllFound) {
+  const KdTree tree(RandomPoints(3, 1.0, 1));
+  const Neighborhoods all = FindNearestNeighborhoods(tree, 20, 1);
+  EXPECT_THAT(all.row_begin, ElementsAre(0, 3, 6, 9));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(all.index[3 * i], static_cast<std::int32_t>(i));
+    EXPECT_EQ(all.squared_distance[3 * i], 0.0f);
+  }
+  EXPECT_EQ(FindNearestNeighborhoods(KdTree(Points(3, 0)), 20, 1).size(), 0);
+}
+
 }  // namespace
 }  // namespace quatro

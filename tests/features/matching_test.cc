@@ -287,6 +287,35 @@ TEST_F(TupleTestTest, MoreTriplesOfTheSameSeedPassMore) {
   EXPECT_FALSE(before.empty());
 }
 
+TEST_F(TupleTestTest, StopsAtTheMostTriples) {
+  const Points target = WithOutliers(100, 1);
+  const auto with_most = [&](std::int64_t max_num_triples) {
+    TupleTestOptions options;
+    options.max_num_triples = max_num_triples;
+    return FilterByTupleTest(matches_, source_, target, options);
+  };
+  const auto all = with_most(0);
+  EXPECT_EQ(with_most(1).size(), 3u);
+  std::size_t before = 3;
+  for (const std::int64_t most : {5, 20, 60}) {
+    const auto kept = with_most(most);
+    EXPECT_GT(kept.size(), before);
+    EXPECT_LE(kept.size(), static_cast<std::size_t>(3 * most));
+    EXPECT_LT(kept.size(), all.size());
+    EXPECT_THAT(kept, IsSubsetOf(all));
+    before = kept.size();
+  }
+  EXPECT_EQ(with_most(1'000'000), all);
+}
+
+TEST(TupleTestOptions, MostTriplesMustNotBeNegative) {
+  TupleTestOptions options;
+  options.max_num_triples = -1;
+  std::string error;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("max_num_triples = -1"));
+}
+
 TEST_F(TupleTestTest, FewerThanThreeMatchesAreReturnedAsTheyAre) {
   const std::vector<Match> wrong = {{0, 5}, {1, 200}};
   EXPECT_EQ(FilterByTupleTest(wrong, source_, target_, options_), wrong);

@@ -52,6 +52,17 @@ TEST_F(ConsensusTest, AgreeingByHand) {
               ElementsAre(0, 1, 2, 3));
 }
 
+TEST_F(ConsensusTest, WithinTheBallByHand) {
+  // Off by 0, 0.3 sqrt(3) = 0.5196, 0.31 and 3.
+  EXPECT_THAT(FindWithinBall(source_, target_, pose_, 0.309), ElementsAre(0));
+  EXPECT_THAT(FindWithinBall(source_, target_, pose_, 0.311),
+              ElementsAre(0, 2));
+  EXPECT_THAT(FindWithinBall(source_, target_, pose_, 0.519),
+              ElementsAre(0, 2));
+  EXPECT_THAT(FindWithinBall(source_, target_, pose_, 0.520),
+              ElementsAre(0, 1, 2));
+}
+
 TEST_F(ConsensusTest, NoMatchesCostNothingAndNoneAgrees) {
   EXPECT_EQ(ConsensusCost(Points(3, 0), Points(3, 0), pose_, 0.3), 0.0);
   EXPECT_THAT(FindAgreeing(Points(3, 0), Points(3, 0), pose_, 0.3), IsEmpty());

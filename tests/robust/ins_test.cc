@@ -13,6 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "robust/arc_consensus.h"
+#include "robust/teaser.h"
+#include "solvers/gravity.h"
+#include "solvers/ins_refinement.h"
 #include "solvers/rigid3.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/matchers.h"
@@ -58,9 +62,7 @@ SlopeProblem MakeSlope(double tilt, std::uint64_t seed, double noise = 0.0) {
           tilt, Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0))
           .toRotationMatrix() *
       RotationZ(2.2);  // World from the source's body.
-  problem.ins.source_attitude = {std::atan2(slope(2, 1), slope(2, 2)),
-                                 std::asin(-slope(2, 0)),
-                                 Yaw(slope)};
+  problem.ins.source_attitude = AttitudeOf(slope);
   EXPECT_LE((WorldFromBody(problem.ins.source_attitude) - slope).norm(), 1e-12);
 
   // The level problem's source is in the world. So is its target, but for the
@@ -95,6 +97,15 @@ double RotationErrorDeg(const QuatroSummary& summary,
   return AngleBetween(summary.target_from_source->rotation,
                       problem.true_target_from_source.rotation) /
          kDegree;
+}
+
+// Each roll and pitch by `std` [rad], which the INS says of itself.
+void Disturb(double std, Random* random, InsOptions* ins) {
+  for (Attitude* attitude : {&ins->source_attitude, &ins->target_attitude}) {
+    attitude->roll += std * RandomNormal(*random);
+    attitude->pitch += std * RandomNormal(*random);
+  }
+  ins->attitude_std = std;
 }
 
 class InsModeTest : public ::testing::TestWithParam<InsMode> {};
@@ -257,12 +268,7 @@ TEST(Ins, HalfADegreeOfItIsLeftByLevelingAndTakenOutByFusing) {
   for (std::uint64_t seed = 0; seed < kNumProblems; ++seed) {
     SlopeProblem problem = MakeSlope(10.0 * kDegree, seed % 5, 0.1);
     Random random(seed + 1000);
-    for (Attitude* attitude :
-         {&problem.ins.source_attitude, &problem.ins.target_attitude}) {
-      attitude->roll += kStd * RandomNormal(random);
-      attitude->pitch += kStd * RandomNormal(random);
-    }
-    problem.ins.attitude_std = kStd;
+    Disturb(kStd, &random, &problem.ins);
     const QuatroSummary fused = Solve(problem, InsMode::kFused);
     leveled_sum += RotationErrorDeg(Solve(problem, InsMode::kLeveled), problem);
     fused_sum += RotationErrorDeg(fused, problem);
@@ -277,6 +283,211 @@ TEST(Ins, HalfADegreeOfItIsLeftByLevelingAndTakenOutByFusing) {
   EXPECT_GT(leveled, 0.5);
   EXPECT_LT(leveled, 1.3);
   EXPECT_LT(fused, 0.2);
+}
+
+// 60 of 120 matches wrong, 0.1 m of noise, an INS that is off by 0.3 deg in
+// each angle. The error of a yaw alone is the tilt at least, whatever the
+// matches.
+TEST(Ins, NoisyOneKeepsAHillBelowADegreeWhereAYawAloneCannot) {
+  for (const double tilt_deg : {2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 15.0}) {
+    double leveled_sum = 0.0;
+    constexpr int kNumProblems = 10;
+    for (std::uint64_t seed = 0; seed < kNumProblems; ++seed) {
+      SlopeProblem problem = MakeSlope(tilt_deg * kDegree, seed, 0.1);
+      Random random(seed + 2000);
+      Disturb(0.3 * kDegree, &random, &problem.ins);
+      leveled_sum +=
+          RotationErrorDeg(Solve(problem, InsMode::kLeveled), problem);
+      for (const InsMode mode : {InsMode::kLeveled, InsMode::kFused}) {
+        EXPECT_LT(RotationErrorDeg(Solve(problem, mode, {}), problem), 0.3);
+      }
+      EXPECT_LT(RotationErrorDeg(Solve(problem, InsMode::kFused), problem), 0.3)
+          << tilt_deg;
+      EXPECT_GE(RotationErrorDeg(Solve(problem, InsMode::kNone), problem),
+                tilt_deg - 1e-6);
+      // Sixty matches all around hold a tilt without any INS, too.
+      EXPECT_LT(RotationErrorDeg(Solve(problem, InsMode::kNone, {}), problem),
+                0.3);
+    }
+    EXPECT_LT(leveled_sum / kNumProblems, 1.0) << tilt_deg;
+  }
+}
+
+// Both attitudes off by as much in one direction: about 0.7 deg between them,
+// and not the 0.3 deg that the INS says of itself.
+TEST(Ins, BiasIsLeftByLevelingAndTakenOutByFusing) {
+  for (const double tilt_deg : {2.0, 5.0, 10.0, 15.0}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      SlopeProblem problem = MakeSlope(tilt_deg * kDegree, seed, 0.1);
+      problem.ins.source_attitude.roll += 0.5 * kDegree;
+      problem.ins.source_attitude.pitch += 0.5 * kDegree;
+      problem.ins.attitude_std = 0.3 * kDegree;
+      const double leveled =
+          RotationErrorDeg(Solve(problem, InsMode::kLeveled), problem);
+      EXPECT_GT(leveled, 0.5) << tilt_deg;
+      EXPECT_LT(leveled, 1.0) << tilt_deg;
+      EXPECT_LT(RotationErrorDeg(Solve(problem, InsMode::kFused), problem),
+                0.3);
+    }
+  }
+}
+
+// Two true matches among wrong ones hold a yaw and no tilt: no polish helps.
+TEST(Ins, TwoTrueMatchesOnAHillNeedIt) {
+  for (const double tilt_deg : {2.0, 5.0, 10.0, 15.0}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const KnownProblem level = MakeInconsistentProblem(
+          {.num_inliers = 2, .num_outliers = 20}, 0.3, seed);
+      const Rigid3 tilt{LevelFromBody(tilt_deg * kDegree, 0.0),
+                        Eigen::Vector3d::Zero()};
+      SlopeProblem problem;
+      problem.source = Inverse(tilt).Apply(level.source);
+      problem.target = level.target;
+      problem.true_target_from_source = level.true_target_from_source * tilt;
+      problem.ins.source_attitude.roll = tilt_deg * kDegree;
+      Random random(seed);
+      Disturb(0.1 * kDegree, &random, &problem.ins);
+      // If it has an answer at all.
+      const QuatroSummary plain = Solve(problem, InsMode::kNone, {});
+      if (plain.IsUsable()) {
+        EXPECT_GE(RotationErrorDeg(plain, problem), tilt_deg - 1e-6);
+      }
+      for (const InsMode mode : {InsMode::kLeveled, InsMode::kFused}) {
+        EXPECT_LT(RotationErrorDeg(Solve(problem, mode, {}), problem), 1.0);
+      }
+    }
+  }
+}
+
+// A sure INS moves even the answer that fits its inliers best.
+TEST(Ins, HasItsSayAfterThePolish) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    SlopeProblem problem = MakeSlope(10.0 * kDegree, seed, 0.2);
+    const auto tilt_error = [&](double attitude_std) {
+      problem.ins.attitude_std = attitude_std;
+      const QuatroSummary summary = Solve(problem, InsMode::kFused, {});
+      EXPECT_TRUE(summary.unpolished_target_from_source.has_value());
+      const Eigen::Vector3d up =
+          WorldFromBody(problem.ins.target_attitude) *
+          summary.target_from_source->rotation *
+          WorldFromBody(problem.ins.source_attitude).transpose() *
+          Eigen::Vector3d::UnitZ();
+      return std::hypot(up.x(), up.y());
+    };
+    EXPECT_LT(tilt_error(1e-6), 1e-6);
+    EXPECT_GT(tilt_error(1.0), 1e-5);
+  }
+}
+
+// The polished answer is the best on its inliers but for the INS.
+TEST(Ins, PolishedAnswerIsNotTheLastWord) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SlopeProblem problem = MakeSlope(5.0 * kDegree, seed, 0.28);
+    Random random(seed);
+    Disturb(0.1 * kDegree, &random, &problem.ins);
+    EXPECT_THAT(Solve(problem, InsMode::kFused, {}).message,
+                HasSubstr("; fused with the INS"))
+        << seed;
+  }
+}
+
+TEST(Ins, FusesAsTheRefinementOfTheInliers) {
+  // Level, without outliers, and an INS that claims otherwise.
+  const KnownProblem level =
+      MakeMatchedProblem({.num_outliers = 0, .noise = 0.05}, 3);
+  InsOptions ins;
+  ins.mode = InsMode::kFused;
+  ins.source_attitude.roll = 0.005;
+  ins.attitude_std = 0.002;
+  ins.match_std = 0.2;
+  const Eigen::Matrix3d level_from_source = LevelFromBody(0.005, 0.0);
+  VerticalPrior prior;
+  prior.up_in_source = level_from_source.row(2).transpose();
+  prior.angle_std = std::sqrt(0.002 * 0.002 + 0.002 * 0.002);
+  const auto expected = RefineWithIns(
+      level.source, level.target, 0.2, level.true_target_from_source, prior);
+  ASSERT_TRUE(expected.has_value());
+  const QuatroSummary summary =
+      SolveQuatroWithIns(level.source, level.target, WithoutPolish(), ins);
+  ASSERT_TRUE(summary.IsUsable()) << summary.message;
+  EXPECT_LE((summary.target_from_source->ToMatrix() -
+             expected->target_from_source.ToMatrix())
+                .norm(),
+            1e-6);
+}
+
+// By (1) of solvers/ins_refinement.h only the ratio of the two counts.
+TEST(Ins, StandardDeviationOfTheMatchesWeighsThem) {
+  SlopeProblem problem = MakeSlope(0.1, 1, 0.2);
+  problem.ins.source_attitude.roll += 0.01;
+  const auto pose = [&](double match_std, double attitude_std) {
+    problem.ins.match_std = match_std;
+    problem.ins.attitude_std = attitude_std;
+    return Solve(problem, InsMode::kFused).target_from_source->ToMatrix();
+  };
+  const Eigen::Matrix4d expected = pose(0.1, 0.001);
+  EXPECT_EQ(pose(0.0, 0.001), expected);  // A third of 0.3 m.
+  EXPECT_LE((pose(1.0, 0.01) - expected).norm(), 1e-6);
+  EXPECT_GT((pose(1.0, 0.001) - expected).norm(), 1e-4);
+}
+
+TEST(SolveWithIns, OfQuatroIsQuatroWithItBitForBit) {
+  SlopeProblem problem = MakeSlope(0.15, 2, 0.1);
+  const QuatroOptions options;
+  const PoseSolver quatro = [&](const PointsRef& p, const PointsRef& q) {
+    return SolveQuatro(p, q, options);
+  };
+  for (const InsMode mode : {InsMode::kNone,
+                             InsMode::kRelative,
+                             InsMode::kLeveled,
+                             InsMode::kFused}) {
+    problem.ins.mode = mode;
+    const PoseSummary summary = SolveWithIns(problem.source,
+                                             problem.target,
+                                             quatro,
+                                             options.noise_bound,
+                                             problem.ins);
+    const QuatroSummary expected = Solve(problem, mode, options);
+    ASSERT_TRUE(summary.IsUsable() && expected.IsUsable());
+    EXPECT_EQ(summary.target_from_source->ToMatrix(),
+              expected.target_from_source->ToMatrix());
+    EXPECT_EQ(summary.message, expected.message);
+  }
+}
+
+TEST(SolveWithIns, ArcConsensusFindsASlope) {
+  SlopeProblem problem = MakeSlope(10.0 * kDegree, 1, 0.05);
+  const PoseSolver solve = [](const PointsRef& p, const PointsRef& q) {
+    return SolveArcConsensus(p, q, {});
+  };
+  problem.ins.mode = InsMode::kLeveled;
+  const PoseSummary summary =
+      SolveWithIns(problem.source, problem.target, solve, 0.3, problem.ins);
+  ASSERT_TRUE(summary.IsUsable()) << summary.message;
+  EXPECT_LT(AngleBetween(summary.target_from_source->rotation,
+                         problem.true_target_from_source.rotation),
+            0.5 * kDegree);
+}
+
+TEST(SolveWithIns, FusesAPoseWithScale) {
+  SlopeProblem problem = MakeSlope(10.0 * kDegree, 1, 0.05);
+  constexpr double kScale = 1.5;
+  problem.source /= kScale;
+  TeaserOptions options;
+  options.estimate_scale = true;
+  const PoseSolver solve = [&](const PointsRef& p, const PointsRef& q) {
+    return SolveTeaser(p, q, options);
+  };
+  problem.ins.mode = InsMode::kFused;
+  const PoseSummary summary = SolveWithIns(
+      problem.source, problem.target, solve, options.noise_bound, problem.ins);
+  ASSERT_TRUE(summary.IsUsable()) << summary.message;
+  EXPECT_THAT(summary.message, HasSubstr("; fused with the INS"));
+  EXPECT_NEAR(summary.scale, kScale, 0.01);
+  EXPECT_LT(AngleBetween(summary.target_from_source->rotation,
+                         problem.true_target_from_source.rotation),
+            0.2 * kDegree);
+  EXPECT_THAT(summary.translation_inliers, IsSupersetOf(problem.inliers));
 }
 
 TEST(Ins, RelativeNeedsTheYawsAndLeveledDoesNot) {
@@ -340,6 +551,9 @@ TEST(InsOptions, NamesWhatIsOutOfRange) {
   ins = {};
   ins.attitude_std = 0.0;
   expect_bad(ins, "attitude_std = 0");
+  ins = {};
+  ins.match_std = -0.1;
+  expect_bad(ins, "match_std = -0.1");
   ins = {};
   ins.up = {0.0, 0.0, 2.0};
   expect_bad(ins, "up = (0 0 2)");

@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "features/kd_tree.h"
 #include "features/normals.h"
+#include "solvers/gravity.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -124,6 +127,31 @@ TEST_F(StructureOverlapTest, SurfacesThatCrossAreNotMet) {
   EXPECT_LT(
       *MeasureStructureOverlap(turned, target_, Rigid3(), kMaxDistance, 1),
       0.1);
+}
+
+TEST_F(StructureOverlapTest, AnyAxisMayBeUp) {
+  // The same scans in axes with x up.
+  const Rigid3 axes{
+      RotationBetween(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()),
+      Eigen::Vector3d::Zero()};
+  const KdTree source_tree(axes.Apply(source_.tree.points()));
+  const KdTree target_tree(axes.Apply(target_.tree.points()));
+  const Points source_normals = axes.Apply(source_.normals);
+  const Points target_normals = axes.Apply(target_.normals);
+  const auto overlap = [&](const Eigen::Vector3d& up) {
+    return MeasureStructureOverlap(
+        {Eigen::Vector3d::Zero(), source_tree, source_normals, up},
+        {Eigen::Vector3d::Zero(), target_tree, target_normals, up},
+        axes * target_from_source_ * Inverse(axes),
+        kMaxDistance,
+        1);
+  };
+  ASSERT_TRUE(overlap(Eigen::Vector3d::UnitX()).has_value());
+  EXPECT_NEAR(
+      *overlap(Eigen::Vector3d::UnitX()), Overlap(target_from_source_), 0.002);
+  EXPECT_GT(std::abs(*overlap(Eigen::Vector3d::UnitZ()) -
+                     Overlap(target_from_source_)),
+            0.004);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/gravity.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
@@ -76,8 +77,9 @@ TEST_F(RegistrationTest, FindsTheMotionBetweenTwoScans) {
       << summary.verdict.reason;
   ASSERT_TRUE(summary.verdict.geometry.has_value());
   // Both are scans from their origins.
-  ASSERT_TRUE(summary.verdict.geometry->contradicted_share.has_value());
-  EXPECT_LE(*summary.verdict.geometry->contradicted_share, 0.05);
+  ASSERT_TRUE(
+      summary.verdict.geometry->free_space.ContradictedShare().has_value());
+  EXPECT_LE(*summary.verdict.geometry->free_space.ContradictedShare(), 0.05);
   EXPECT_GT(summary.num_source_voxels, 1000);
   EXPECT_GT(summary.num_target_voxels, 1000);
   EXPECT_EQ(summary.matched_source.cols(), summary.matched_target.cols());
@@ -90,7 +92,8 @@ TEST_F(RegistrationTest, FreeSpaceOfAMapIsNotKnown) {
   const PointCloud target = CloudOf(target_.points.colwise() + origin);
   const RegistrationSummary summary = Register(source, target, options_);
   ASSERT_TRUE(summary.verdict.geometry.has_value()) << summary.verdict.reason;
-  EXPECT_FALSE(summary.verdict.geometry->contradicted_share.has_value());
+  EXPECT_FALSE(
+      summary.verdict.geometry->free_space.ContradictedShare().has_value());
 }
 
 TEST_F(RegistrationTest, NumberOfThreadsDoesNotMatterBitForBit) {
@@ -161,6 +164,109 @@ TEST_F(RegistrationTest, AnotherSolverTakesThePlaceOfQuatro) {
   EXPECT_EQ(summary.verdict.status, Status::kInsufficient);
   EXPECT_EQ(summary.verdict.reason, "not today");
   EXPECT_EQ(summary.verdict.num_matches, summary.matched_source.cols());
+}
+
+// The source is rolled by 12 deg and pitched by -5 deg, the target by -3 deg.
+class TiltedRegistrationTest : public RegistrationTest {
+ protected:
+  TiltedRegistrationTest() {
+    options_.quatro.polish = false;
+    options_.ins.source_attitude = {0.21, -0.09, 0.0};
+    options_.ins.target_attitude = {-0.05, 0.0, -0.7};
+  }
+
+  RegistrationSummary RegisterTilted(InsMode mode) {
+    options_.ins.mode = mode;
+    return Register(tilted_source_, tilted_target_, options_);
+  }
+
+  const Rigid3 level_from_source_{LevelFromBody(0.21, -0.09),
+                                  Eigen::Vector3d::Zero()};
+  const Rigid3 level_from_target_{LevelFromBody(-0.05, 0.0),
+                                  Eigen::Vector3d::Zero()};
+  const Rigid3 true_tilted_ = Inverse(level_from_target_) *
+                              true_target_from_source_ * level_from_source_;
+  const PointCloud tilted_source_ =
+      CloudOf(Inverse(level_from_source_).Apply(source_.points));
+  const PointCloud tilted_target_ =
+      CloudOf(Inverse(level_from_target_).Apply(target_.points));
+};
+
+TEST_F(TiltedRegistrationTest, RollAndPitchOfAnInsAreTaken) {
+  for (const InsMode mode :
+       {InsMode::kRelative, InsMode::kLeveled, InsMode::kFused}) {
+    const RegistrationSummary summary = RegisterTilted(mode);
+    ASSERT_THAT(summary.error, IsEmpty());
+    ASSERT_TRUE(summary.target_from_source().has_value());
+    EXPECT_TRUE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+    EXPECT_LE(
+        LargestDisplacement(
+            *summary.target_from_source(), true_tilted_, tilted_source_.points),
+        0.3)
+        << static_cast<int>(mode);
+  }
+}
+
+TEST_F(TiltedRegistrationTest, WithoutAnInsAYawAloneIsOff) {
+  const RegistrationSummary summary = RegisterTilted(InsMode::kNone);
+  if (!summary.target_from_source()) return;
+  EXPECT_GT(AngleBetween(summary.target_from_source()->rotation,
+                         true_tilted_.rotation),
+            0.2);
+}
+
+TEST_F(TiltedRegistrationTest, AnotherSolverIsGivenTheLevelMatches) {
+  const RegistrationSummary expected = RegisterTilted(InsMode::kLeveled);
+  options_.solver = [&](const PointsRef& source, const PointsRef& target) {
+    EXPECT_LE((source - level_from_source_.Apply(expected.matched_source))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-9);
+    EXPECT_LE((target - level_from_target_.Apply(expected.matched_target))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-9);
+    return SolveQuatro(source, target, options_.quatro);
+  };
+  ExpectSameBits(RegisterTilted(InsMode::kLeveled), expected);
+}
+
+TEST_F(RegistrationTest, AnyAxisMayBeUp) {
+  options_.quatro.polish = false;
+  const Rigid3 axes{
+      RotationBetween(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()),
+      Eigen::Vector3d::Zero()};
+  // In the coordinates of a map, too, where the sensor must be guessed. A
+  // multiple of the voxels, which are then the same in all axes.
+  for (const double offset : {0.0, 99.0}) {
+    const auto register_in = [&](const Rigid3& axes_from_cloud,
+                                 const Eigen::Vector3d& up) {
+      options_.ins.up = up;
+      return Register(CloudOf(axes_from_cloud.Apply(source_.points)),
+                      CloudOf(axes_from_cloud.Apply(target_.points)),
+                      options_);
+    };
+    const Eigen::Vector3d shift = Eigen::Vector3d::Constant(offset);
+    const Rigid3 turned{axes.rotation, shift};
+    const RegistrationSummary expected = register_in(
+        {Eigen::Matrix3d::Identity(), shift}, Eigen::Vector3d::UnitZ());
+    const RegistrationSummary summary =
+        register_in(turned, Eigen::Vector3d::UnitX());
+    ASSERT_TRUE(summary.target_from_source().has_value());
+    EXPECT_TRUE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+    EXPECT_LE(LargestDisplacement(
+                  Inverse(turned) * *summary.target_from_source() * turned,
+                  true_target_from_source_,
+                  source_.points),
+              0.3);
+    EXPECT_NEAR(static_cast<double>(summary.num_mutual_matches),
+                static_cast<double>(expected.num_mutual_matches),
+                0.02 * static_cast<double>(expected.num_mutual_matches));
+    ASSERT_TRUE(summary.verdict.geometry && expected.verdict.geometry);
+    EXPECT_NEAR(summary.verdict.geometry->structure_overlap,
+                expected.verdict.geometry->structure_overlap,
+                0.01);
+  }
 }
 
 TEST_F(RegistrationTest, BareGroundIsNotRegistered) {
@@ -236,6 +342,9 @@ TEST(RegistrationOptions, ErrorNamesTheFieldAndNothingIsTried) {
                "max_num_iterations = 0");
   expect_error([](Options o) { o->verdict.min_probability = 2.0; },
                "min_probability = 2");
+  expect_error([](Options o) { o->ins.attitude_std = 0.0; },
+               "ins.attitude_std = 0");
+  expect_error([](Options o) { o->ins.up.setZero(); }, "ins.up = (0 0 0)");
   expect_error([](Options o) { o->num_threads = -2; }, "num_threads = -2");
 }
 

@@ -140,6 +140,25 @@ TEST(Rival, MovesWithTheFramesAndKeepsItsCount) {
   EXPECT_EQ(moved->num_agreeing, rival->num_agreeing);
 }
 
+TEST(Rival, TurnsAboutTheVerticalThatIsGiven) {
+  const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d(1.0, 2.0, 0.0)};
+  const KnownProblem problem = MakeTwins(twin, 40, 30, /*seed=*/4);
+  // Up is x now.
+  Rigid3 lay;
+  lay.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  const auto rival = FindRival(problem.source,
+                               lay.Apply(problem.target),
+                               lay * problem.true_target_from_source,
+                               kBound,
+                               {.up_in_target = Eigen::Vector3d::UnitX()});
+  ASSERT_TRUE(rival);
+  EXPECT_GE(rival->num_agreeing, 30);
+  EXPECT_LE(LargestDisplacement(rival->target_from_source,
+                                lay * twin * problem.true_target_from_source,
+                                problem.source),
+            2.0 * kBound);
+}
+
 TEST(Rival, DoesNotDependOnTheNumberOfThreads) {
   const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d(1.0, 2.0, 0.0)};
   const KnownProblem problem = MakeTwins(twin, 40, 30, /*seed=*/5);
@@ -177,6 +196,9 @@ TEST(RivalOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   EXPECT_THAT(error, HasSubstr("num_pairs"));
   EXPECT_FALSE(RivalOptions{.max_num_matches = 1}.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("max_num_matches"));
+  EXPECT_FALSE(
+      RivalOptions{.up_in_target = Eigen::Vector3d::Zero()}.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("up_in_target"));
   EXPECT_FALSE(RivalOptions{.num_threads = -1}.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("num_threads"));
 }

@@ -183,7 +183,7 @@ TEST(Judge, TakesTheCloudsIntoAccount) {
   };
   GeometricEvidence good;
   good.structure_overlap = 0.7;
-  good.contradicted_share = 0.03;
+  good.free_space = {3, 97};
   good.weakest_share = 0.3;
   good.rival.overlap = 0.7;
   good.rival.rival_overlap = 0.2;
@@ -192,7 +192,7 @@ TEST(Judge, TakesTheCloudsIntoAccount) {
   bad.structure_overlap = 0.05;
   bad.rival.overlap = 0.05;
   bad.rival.rival_overlap = 0.04;
-  bad.contradicted_share = 0.6;
+  bad.free_space = {60, 40};
   EXPECT_EQ(judge(bad).status, Status::kAmbiguous) << judge(bad).reason;
   EXPECT_THAT(judge(bad).reason, HasSubstr("saw through"));
   EXPECT_THAT(judge(bad).reason, HasSubstr("fit as well"));
@@ -276,7 +276,8 @@ TEST(VerdictOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   EXPECT_TRUE(VerdictOptions().IsValid(&error)) << error;
   EXPECT_TRUE(error.empty());
   for (const double bad : {-0.1, 1.1, nan}) {
-    EXPECT_FALSE((VerdictOptions{.min_probability = bad}.IsValid(&error)));
+    EXPECT_FALSE(
+        (VerdictOptions{.min_probability = bad, .rival = {}}.IsValid(&error)));
     EXPECT_THAT(error, HasSubstr("min_probability"));
   }
   VerdictOptions options;

@@ -48,6 +48,17 @@ TEST(WorldFromBody, YawIsTheYaw) {
             kTolerance);
 }
 
+TEST(AttitudeOf, IsTheInverse) {
+  for (const Attitude& attitude : {Attitude{0.2, -0.3, 2.5},
+                                   Attitude{-3.0, 1.5, -2.0},
+                                   Attitude{0.0, 0.0, 0.0}}) {
+    const Attitude found = AttitudeOf(WorldFromBody(attitude));
+    EXPECT_NEAR(found.roll, attitude.roll, kTolerance);
+    EXPECT_NEAR(found.pitch, attitude.pitch, kTolerance);
+    EXPECT_NEAR(found.yaw, attitude.yaw, kTolerance);
+  }
+}
+
 TEST(RelativeTilt, IsWhatIsLeftOfTheRotationWithoutItsYaw) {
   const Attitude source = {0.1, -0.2, 2.0};
   const Attitude target = {-0.15, 0.05, -1.0};

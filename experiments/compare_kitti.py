@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Says how close simulated scans are to real ones, as a registration sees them.
+
+    compare_kitti.py --real=DATA/pairs.csv --simulated=05 [--simulated=street/pairs.csv]
+
+Runs quatro_register on pairs with a known pose, and prints by distance the
+medians of how many voxels of 0.3 m a scan has, how many mutual matches there
+are, and the share of these that the true pose brings within 0.6 m.
+
+A list is a pairs.csv as run_pairs.py reads it, or a folder in KITTI's layout, of
+which pairs of frames are drawn. Of a real list, scans of less than --min_points
+are left out: they have been thinned. Exit code: 0; 2 if a flag or a file is wrong.
+"""
+import argparse
+import collections
+import csv
+import json
+import math
+import os
+import pathlib
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+
+from run_pairs import BadInput, read_pairs
+
+BINS = (0.0, 2.5, 7.5, 12.5, 17.5, 25.0, 40.0)  # [m]
+MAX_ERROR = 0.6  # Of a true match [m].
+
+Pair = collections.namedtuple("Pair", "source target pose")  # pose: (R, t)
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(message)
+
+
+def product(a, b):
+    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
+
+
+def inverse(pose):
+    rotation = [[pose[j][i] for j in range(3)] for i in range(3)]
+    return [row + [-sum(r * pose[k][3] for k, r in enumerate(row))] for row in rotation] + \
+        [[0.0, 0.0, 0.0, 1.0]]
+
+
+def read_rows(path, prefix=""):
+    """3x4 matrices of the lines that begin with `prefix`, made 4x4."""
+    try:
+        lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+        rows = [[float(x) for x in line[len(prefix):].split()] for line in lines
+                if line.startswith(prefix)]
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        raise BadInput(f"{path}: {error}") from None
+    if not rows or any(len(row) != 12 for row in rows):
+        raise BadInput(f"{path}: must have 12 numbers a line")
+    return [[row[0:4], row[4:8], row[8:12], [0.0, 0.0, 0.0, 1.0]] for row in rows]
+
+
+def pairs_of_sequence(folder, per_bin, seed):
+    tr = read_rows(folder / "calib.txt", "Tr:")[0]
+    world_from_sensor = [product(product(inverse(tr), pose), tr)
+                         for pose in read_rows(folder / "poses.txt")]
+    by_bin = collections.defaultdict(list)
+    for i, target in enumerate(world_from_sensor):
+        for j in range(i + 1, len(world_from_sensor)):
+            source = world_from_sensor[j]
+            distance = math.dist([r[3] for r in source[:3]], [r[3] for r in target[:3]])
+            by_bin[bin_of(distance)].append((i, j))
+    draw = random.Random(seed)
+    pairs = []
+    for number, candidates in sorted(by_bin.items(), key=lambda item: str(item[0])):
+        if number is None:
+            continue
+        for i, j in draw.sample(candidates, min(per_bin, len(candidates))):
+            pose = product(inverse(world_from_sensor[i]), world_from_sensor[j])
+            scans = [str(folder / "velodyne" / f"{k:06d}.bin") for k in (j, i)]
+            pairs.append(Pair(*scans, ([row[:3] for row in pose[:3]],
+                                       [row[3] for row in pose[:3]])))
+    return pairs
+
+
+def bin_of(distance):
+    """Index of the bin, or None beyond the last."""
+    for i in range(len(BINS) - 1):
+        if BINS[i] <= distance < BINS[i + 1]:
+            return i
+    return None
+
+
+def read_list(path, per_bin, seed, min_points, exclude):
+    path = pathlib.Path(path)
+    if path.is_dir():
+        return pairs_of_sequence(path, per_bin, seed)
+    pairs = [Pair(str(path.parent / pair.source), str(path.parent / pair.target), pair.pose)
+             for pair in read_pairs(str(path), exclude) if pair.pose is not None]
+    pairs = [pair for pair in pairs
+             if all(scan.endswith(".bin") and os.path.getsize(scan) >= 16 * min_points
+                    for scan in (pair.source, pair.target))]
+    by_bin = collections.defaultdict(list)
+    for pair in pairs:
+        by_bin[bin_of(math.hypot(*pair.pose[1]))].append(pair)
+    draw = random.Random(seed)
+    return [pair for number, group in by_bin.items() if number is not None
+            for pair in draw.sample(group, min(per_bin, len(group)))]
+
+
+def measure(pair, program, flags):
+    """(voxels of a scan, matches, share of them that is true)"""
+    with tempfile.TemporaryDirectory() as folder:
+        matches = os.path.join(folder, "matches.csv")
+        run = subprocess.run([program, f"--source={pair.source}", f"--target={pair.target}",
+                              f"--correspondences_out={matches}", *flags],
+                             stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                             check=False)
+        if run.returncode not in (0, 1):
+            raise BadInput((run.stderr.strip() or f"{program}: failed").splitlines()[-1])
+        counts = json.loads(run.stdout)["counts"]
+        rotation, translation = pair.pose
+        num_true = num_all = 0
+        with open(matches, newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                source = [float(row[name]) for name in ("sx", "sy", "sz")]
+                target = [float(row[name]) for name in ("tx", "ty", "tz")]
+                moved = [sum(r * s for r, s in zip(rotation[i], source)) + translation[i]
+                         for i in range(3)]
+                num_all += 1
+                num_true += math.dist(moved, target) < MAX_ERROR
+    voxels = (counts["source_voxels"] + counts["target_voxels"]) / 2
+    return voxels, num_all, num_true / max(1, num_all)
+
+
+def summarize(pairs, name, program, flags):
+    by_bin = collections.defaultdict(list)
+    for i, pair in enumerate(pairs, 1):
+        by_bin[bin_of(math.hypot(*pair.pose[1]))].append(measure(pair, program, flags))
+        print(f"\r{name}: {i}/{len(pairs)} ", end="", file=sys.stderr, flush=True)
+    print(file=sys.stderr)
+    return by_bin
+
+
+def format_table(columns):
+    """One line a distance; for each column: pairs, voxels, matches, true share."""
+    lines = ["".join([f"{'':11}"] + [f"{name[-34:]:>36}" for name, _ in columns]),
+             "".join([f"{'distance m':11}"] +
+                     [f"{'pairs':>6}{'voxels':>9}{'matches':>9}{'true %':>12}" for _ in columns])]
+    for i in range(len(BINS) - 1):
+        line = f"{BINS[i]:g}-{BINS[i + 1]:g}"
+        line = f"{line:11}"
+        for _, by_bin in columns:
+            group = by_bin.get(i, [])
+            if group:
+                voxels, matches, share = (statistics.median(x) for x in zip(*group))
+                line += f"{len(group):6}{voxels:9.0f}{matches:9.0f}{100 * share:12.1f}"
+            else:
+                line += f"{'-':>6}{'-':>9}{'-':>9}{'-':>12}"
+        lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
+def parse_args(args):
+    parser = Parser(prog="compare_kitti.py", description=__doc__, allow_abbrev=False,
+                    formatter_class=argparse.RawDescriptionHelpFormatter,
+                    usage="compare_kitti.py --real=LIST --simulated=LIST ... "
+                          "[-- FLAGS OF quatro_register]")
+    parser.add_argument("--real", metavar="LIST", action="append", default=[])
+    parser.add_argument("--simulated", metavar="LIST", action="append", default=[])
+    parser.add_argument("--exclude", metavar="SET", action="append", default=[],
+                        help="of the real lists; may be repeated")
+    parser.add_argument("--pairs_per_bin", type=int, default=8)
+    parser.add_argument("--min_points", type=int, default=90000)
+    parser.add_argument("--seed", type=int, default=1)
+    default = pathlib.Path(__file__).resolve().parent.parent / "build" / "bin" / "quatro_register"
+    parser.add_argument("--program", default=str(default), metavar="FILE")
+    split = args.index("--") if "--" in args else len(args)
+    return parser.parse_args(args[:split]), args[split + 1:]
+
+
+def main(args):
+    options, flags = parse_args(args)
+    if not options.real and not options.simulated:
+        raise BadInput("there is neither --real nor --simulated")
+    columns = []
+    for path in options.real + options.simulated:
+        is_real = len(columns) < len(options.real)
+        pairs = read_list(path, options.pairs_per_bin, options.seed,
+                          options.min_points if is_real else 0,
+                          options.exclude if is_real else [])
+        if not pairs:
+            raise BadInput(f"{path}: there are no pairs to compare")
+        name = ("real " if is_real else "simulated ") + os.path.basename(str(path).rstrip("/"))
+        columns.append((name, summarize(pairs, name, options.program, flags)))
+    sys.stdout.write(format_table(columns))
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except BadInput as problem:
+        print(f"compare_kitti.py: {problem}", file=sys.stderr)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/structure_hold.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "features/kd_tree.h"
+#include "features/parallel.h"
+
+namespace quatro {
+namespace {
+
+constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
+constexpr double kMinNormalCosine = 0.8;
+constexpr Eigen::Index kMinMet = 50;
+
+// Points of a that are met in b, and b's normals there, both in b.
+struct MetPoints {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+};
+
+MetPoints FindMet(const SurfaceCloud& a,
+                  const SurfaceCloud& b,
+                  const Rigid3& b_from_a,
+                  double max_distance,
+                  int num_threads) {
+  constexpr Eigen::Index kNone = -1;
+  const Points& points = a.tree.points();
+  std::vector<Eigen::Index> met(static_cast<std::size_t>(points.cols()), kNone);
+  const auto look = [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const auto normal = a.normals.col(i);
+      if (normal.isZero(0.0)) continue;
+      const Neighbor nearest =
+          b.tree.Nearest(b_from_a * Eigen::Vector3d(points.col(i)), 1).front();
+      const double cosine =
+          (b_from_a.rotation * normal).dot(b.normals.col(nearest.index));
+      if (nearest.squared_distance <= max_distance * max_distance &&
+          std::abs(cosine) > kMinNormalCosine) {
+        met[static_cast<std::size_t>(i)] = nearest.index;
+      }
+    }
+  };
+  ParallelFor(num_threads, points.cols(), 512, look);
+  MetPoints result;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Index nearest = met[static_cast<std::size_t>(i)];
+    if (nearest == kNone) continue;
+    result.points.push_back(b_from_a * Eigen::Vector3d(points.col(i)));
+    result.normals.emplace_back(b.normals.col(nearest));
+  }
+  return result;
+}
+
+// The sums of (1) and of its pieces over one scan's points.
+struct Sums {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  Matrix6 information = Matrix6::Zero();
+  Eigen::Matrix2d level = Eigen::Matrix2d::Zero();
+  Eigen::Index num_structure = 0;
+};
+
+void AddTo(const MetPoints& met, const Eigen::Vector3d& center, Sums* sums) {
+  for (std::size_t i = 0; i < met.points.size(); ++i) {
+    const Eigen::Vector3d x = met.points[i] - center;
+    const Eigen::Vector3d& n = met.normals[i];
+    Vector6 a;
+    a << x.cross(n), n;
+    sums->information += a * a.transpose();
+    sums->scatter += x * x.transpose();
+    if (std::abs(n.z()) > kMaxVertical) continue;
+    ++sums->num_structure;
+    sums->level += n.head<2>() * n.head<2>().transpose();
+  }
+}
+
+// In [0, 1].
+double Part(const DirectionInformation& direction, const StructureHold& hold) {
+  if (direction.freedom == Freedom::kTranslation) return direction.information;
+  const Eigen::Vector3d& w = direction.axis;
+  const double squared_distance =
+      hold.scatter.trace() - w.dot(hold.scatter * w) +
+      w.cross(direction.point - hold.center).squaredNorm();
+  return squared_distance > 0.0 ? direction.information / squared_distance
+                                : 0.0;
+}
+
+void NameUnheld(const StructureHoldOptions& options, StructureHold* hold) {
+  for (const DirectionInformation& direction :
+       SplitInformation(hold->information, hold->center, options.min_part)) {
+    if (Part(direction, *hold) >= options.min_part) continue;
+    hold->unheld.push_back({direction.freedom,
+                            NotHeld::kNoSurface,
+                            direction.axis,
+                            direction.point,
+                            {}});
+  }
+}
+
+}  // namespace
+
+bool StructureHoldOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(max_distance > 0.0 && std::isfinite(max_distance))) {
+    problem << "structure_hold.max_distance = " << max_distance
+            << ", must be > 0 and finite";
+  } else if (!(min_part >= 0.0 && min_part < 1.0)) {
+    problem << "structure_hold.min_part = " << min_part
+            << ", must be in [0, 1)";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+std::optional<StructureHold> MeasureStructureHold(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const StructureHoldOptions& options,
+    int num_threads) {
+  if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
+    return std::nullopt;
+  }
+  const MetPoints of_source = FindMet(
+      source, target, target_from_source, options.max_distance, num_threads);
+  MetPoints of_target = FindMet(target,
+                                source,
+                                Inverse(target_from_source),
+                                options.max_distance,
+                                num_threads);
+  StructureHold hold;
+  hold.num_met = static_cast<Eigen::Index>(of_source.points.size() +
+                                           of_target.points.size());
+  if (hold.num_met < kMinMet) return std::nullopt;
+  for (Eigen::Vector3d& point : of_target.points) {
+    point = target_from_source * point;
+  }
+  for (Eigen::Vector3d& normal : of_target.normals) {
+    normal = target_from_source.rotation * normal;
+  }
+
+  // From a point first, which keeps the digits of coordinates far out.
+  const auto n = static_cast<double>(hold.num_met);
+  const Eigen::Vector3d origin = of_source.points.empty()
+                                     ? of_target.points.front()
+                                     : of_source.points.front();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& point : of_source.points) mean += point - origin;
+  for (const auto& point : of_target.points) mean += point - origin;
+  hold.center = origin + mean / n;
+  Sums sums;
+  AddTo(of_source, hold.center, &sums);
+  AddTo(of_target, hold.center, &sums);
+  hold.information = sums.information / n;
+  hold.scatter = sums.scatter / n;
+  hold.num_structure = sums.num_structure;
+  if (hold.num_structure > 0) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> level(sums.level);
+    hold.weakest_level_axis.head<2>() = level.eigenvectors().col(0);
+    hold.weakest_level_share =
+        std::max(0.0, level.eigenvalues()[0]) / level.eigenvalues().sum();
+  }
+  NameUnheld(options, &hold);
+  return hold;
+}
+
+}  // namespace quatro
