@@ -53,7 +53,7 @@ def main():
         axes[1, column].set_xlabel("wrong loops [% of the loops]")
     axes[0, 0].set_ylabel("runs within 0.1 m [%]")
     axes[1, 0].set_ylabel("largest error, median [m]")
-    axes[0, -1].legend(loc="center right")
+    axes[0, 0].legend(loc="center right")
     figure.savefig(sys.argv[-1], dpi=100)
 
 
