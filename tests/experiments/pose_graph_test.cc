@@ -158,24 +158,36 @@ TEST(PoseGraphProblemTest, ResidualsAreWhitened) {
   }
 }
 
+// The cost of one edge whose ends are turned by `yaw`, with an information that
+// ties x to the rotation: the sign of the rotation's error counts.
+double CostOfTurnedEdge(int dimension, double yaw) {
+  const int n = dimension == 2 ? 3 : 6;
+  PoseGraph graph;
+  graph.dimension = dimension;
+  graph.ids = {0, 1};
+  const Rigid3 world_from_start{RotationZ(yaw), Eigen::Vector3d::Zero()};
+  graph.world_from_pose = {
+      world_from_start, world_from_start * Rigid3{RotationZ(0.3), {1, 0, 0}}};
+  PoseEdge edge;
+  edge.to = 1;
+  edge.from_from_to = {RotationZ(0.29), {0.98, 0.0, 0.0}};
+  edge.information = Eigen::MatrixXd::Identity(n, n);
+  edge.information(0, n - 1) = edge.information(n - 1, 0) = 0.9;
+  graph.edges = {edge};
+  PoseGraphProblem problem(graph, With(LoopLoss::kNone));
+  double cost = 0.0;
+  problem.problem().Evaluate({}, &cost, nullptr, nullptr, nullptr);
+  return cost;
+}
+
 TEST(PoseGraphProblemTest, HalfTurnsAreNoJump) {
-  // q and -q, and yaw beyond pi, cost the same.
   for (const int dimension : {2, 3}) {
-    const int n = dimension == 2 ? 3 : 6;
-    PoseGraph graph;
-    graph.dimension = dimension;
-    graph.ids = {0, 1};
-    graph.world_from_pose = {{RotationZ(3.0), Eigen::Vector3d::Zero()},
-                             {RotationZ(-3.0), Eigen::Vector3d::Zero()}};
-    PoseEdge edge;
-    edge.to = 1;
-    edge.from_from_to.rotation = RotationZ(2.0 * M_PI - 6.0 + 0.01);
-    edge.information = Eigen::MatrixXd::Identity(n, n);
-    graph.edges = {edge};
-    PoseGraphProblem problem(graph, With(LoopLoss::kNone));
-    double cost = 0.0;
-    problem.problem().Evaluate({}, &cost, nullptr, nullptr, nullptr);
-    EXPECT_NEAR(2.0 * cost, 1e-4, 1e-8) << dimension;
+    // x is off by 0.02, the rotation by 0.01.
+    const double expected = 0.5 * (4e-4 + 1e-4 + 2.0 * 0.9 * 2e-4);
+    for (const double yaw : {0.0, 1.0, 3.0, 3.1, -3.1, M_PI - 0.15}) {
+      EXPECT_NEAR(CostOfTurnedEdge(dimension, yaw), expected, 1e-8)
+          << dimension << ", yaw " << yaw;
+    }
   }
 }
 
