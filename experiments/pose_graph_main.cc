@@ -49,7 +49,6 @@ DEFINE_string(protocol,
               "wrong_loops: success against the share of wrong loops, for "
               "every loss; numbers for draw_wrong_loops.py");
 DEFINE_int32(seeds, 10, "Worlds of each kind, for --protocol");
-DEFINE_int32(threads, 1, "Of Ceres");
 DEFINE_bool(full_report, false, "Print the trace of mu and cost as well");
 
 namespace {
@@ -95,11 +94,6 @@ std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
     *error = "--" + *error;
     return std::nullopt;
   }
-  if (FLAGS_threads < 1) {
-    *error = "--threads must be >= 1";
-    return std::nullopt;
-  }
-  options.solver.num_threads = FLAGS_threads;
   return options;
 }
 

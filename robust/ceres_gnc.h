@@ -48,7 +48,9 @@
 // answer if there is one; if not, those before the call.
 //
 // Time is that of the inner solves and, per iteration, one evaluation of the
-// candidates' residuals; memory O(residual and parameter blocks).
+// candidates' residuals; memory O(residual and parameter blocks). With
+// solver.num_threads = 1 the answer is the same bit for bit each time; with
+// more Ceres adds up in another order.
 //
 // Source: Yang, Antonante, Tzoumas and Carlone, "Graduated Non-Convexity for
 // Robust Spatial Perception", RA-L 2020.
