@@ -13,9 +13,13 @@
 //     Eigen::VectorXd SquaredResiduals(const Estimate& estimate) const;
 //     // The estimate before any data; only kIdentity below asks for it.
 //     Estimate Identity() const;
+//     // Optional: what Solve() made least, if not sum_i w_i r2_i.
+//     double Cost(const Estimate& estimate) const;
 //   };
 //
-// and a Surrogate (robust/surrogate.h) brings the loss and its schedule.
+// and a Surrogate (robust/surrogate.h) brings the loss and its schedule. Of
+// ours, robust/quasi_so3.h is the smallest; robust/ceres_gnc.h makes one of any
+// ceres::Problem.
 
 #ifndef QUATRO_ROBUST_GNC_H_
 #define QUATRO_ROBUST_GNC_H_
@@ -62,14 +66,14 @@ std::string DescribeGnc(GncTermination termination, std::size_t num_iterations);
 
 struct GncIteration {
   double mu = 0.0;
-  double cost = 0.0;  // sum_i w_i r2_i.
+  double cost = 0.0;  // sum_i w_i r2_i, or the Subproblem's own.
   double sum_of_weights = 0.0;
 };
 
 template <typename Estimate>
 struct GncSummary {
   GncTermination termination = GncTermination::kUndetermined;
-  std::string message;
+  std::string message;                // Which rule or what trouble ended it.
   std::optional<Estimate> estimate;   // Set iff IsUsable().
   Weights weights;                    // Those the estimate was solved with.
   Eigen::VectorXd squared_residuals;  // Of the estimate; inlier iff <= 1.
@@ -77,6 +81,18 @@ struct GncSummary {
 
   bool IsUsable() const { return estimate.has_value(); }
 };
+
+template <typename Subproblem>
+double GncCost(const Subproblem& subproblem,
+               const typename Subproblem::Estimate& estimate,
+               const Weights& weights,
+               const Eigen::VectorXd& r2) {
+  if constexpr (requires { subproblem.Cost(estimate); }) {
+    return subproblem.Cost(estimate);
+  } else {
+    return weights.dot(r2);
+  }
+}
 
 template <typename Surrogate, typename Subproblem>
 GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
@@ -96,16 +112,20 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
   Eigen::VectorXd& r2 = summary.squared_residuals;
   r2 = subproblem.SquaredResiduals(*summary.estimate);
 
+  // Without measurements there is nothing to weigh: the plain fit stands.
   const double max_r2 =
-      options.start == GncStart::kPlainFit
+      r2.size() == 0 ? 0.0
+      : options.start == GncStart::kPlainFit
           ? r2.maxCoeff()
           : subproblem.SquaredResiduals(subproblem.Identity()).maxCoeff();
   if (max_r2 <= 1.0) {
     summary.termination = GncTermination::kAllInliers;
+    summary.message = "no residual to start from is above its bound";
     return summary;
   }
 
   summary.termination = GncTermination::kMaxNumIterations;
+  summary.message = "no more iterations were allowed";
   double mu = Surrogate::InitialMu(max_r2, options.start);
   double previous_cost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < options.max_num_iterations; ++i) {
@@ -120,16 +140,23 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
     }
     r2 = subproblem.SquaredResiduals(*summary.estimate);
 
-    const double cost = summary.weights.dot(r2);
+    const double cost =
+        GncCost(subproblem, *summary.estimate, summary.weights, r2);
     summary.iterations.push_back({mu, cost, summary.weights.sum()});
 
     const double gap_to_binary =
         summary.weights.array().min(1.0 - summary.weights.array()).maxCoeff();
     const double cost_change = std::abs(previous_cost - cost);
-    if (Surrogate::IsExact(mu) ||
-        gap_to_binary <= options.binary_weight_tolerance ||
-        cost_change <= options.relative_cost_tolerance * cost) {
+    const char* const stop =
+        Surrogate::IsExact(mu) ? "the loss was exact"
+        : gap_to_binary <= options.binary_weight_tolerance
+            ? "the weights were binary"
+        : cost_change <= options.relative_cost_tolerance * cost
+            ? "the cost settled"
+            : nullptr;
+    if (stop != nullptr) {
       summary.termination = GncTermination::kConverged;
+      summary.message = stop;
       return summary;
     }
     previous_cost = cost;

@@ -39,6 +39,7 @@
 #include "robust/polish.h"
 #include "robust/pose_summary.h"
 #include "robust/pruning.h"
+#include "robust/surrogate.h"
 #include "robust/tims.h"
 #include "solvers/yaw.h"
 
@@ -48,8 +49,6 @@ enum class YawSolver {
   kGnc,    // Graduated non-convexity, the paper's.
   kExact,  // The global optimum of the truncated problem.
 };
-
-enum class SurrogateType { kTruncatedLeastSquares, kGemanMcClure, kWelsch };
 
 struct QuatroOptions {
   // How far a right match may be off [m].

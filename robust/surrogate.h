@@ -6,7 +6,8 @@
 //
 //   rho_mu(r2) = min_{0 <= w <= 1}  w r2 + Phi_mu(w),                      (1)
 //
-// whose minimum is at Weight(r2, mu) (Black and Rangarajan, IJCV 1996).
+// whose minimum is at Weight(r2, mu) (Black and Rangarajan, IJCV 1996). Hence
+// Weight is the slope of Loss over r2, and WeightSlope its curvature.
 //
 // Residuals arrive divided by the noise bound, so an inlier has r2 <= 1 and no
 // loss carries a threshold of its own. Equation numbers are those of Yang,
@@ -27,6 +28,9 @@ enum class GncStart {
   kIdentity,  // Those before any fit, as in the Quatro paper.
 };
 
+// The types below, by name.
+enum class SurrogateType { kTruncatedLeastSquares, kGemanMcClure, kWelsch };
+
 // Truncated least squares, min(r2, 1). Convex as mu -> 0, exact as mu -> inf.
 struct TruncatedLeastSquares {
   // Remark 5, and Section III.C of the Quatro paper. Needs max_r2 > 1.
@@ -42,6 +46,10 @@ struct TruncatedLeastSquares {
     if (r2 >= (mu + 1.0) / mu) return 0.0;
     if (r2 <= mu / (mu + 1.0)) return 1.0;
     return std::sqrt(mu * (mu + 1.0) / r2) - mu;
+  }
+  static double WeightSlope(double r2, double mu) {
+    if (r2 >= (mu + 1.0) / mu || r2 <= mu / (mu + 1.0)) return 0.0;
+    return -0.5 * std::sqrt(mu * (mu + 1.0) / r2) / r2;
   }
   // Equation (5) of the Quatro paper.
   static double OutlierProcess(double w, double mu) {
@@ -69,6 +77,9 @@ struct GemanMcClure {
     const double w = mu / (r2 + mu);
     return w * w;
   }
+  static double WeightSlope(double r2, double mu) {
+    return -2.0 * Weight(r2, mu) / (r2 + mu);
+  }
   static double OutlierProcess(double w, double mu) {
     const double root = std::sqrt(w) - 1.0;
     return mu * root * root;
@@ -87,6 +98,9 @@ struct Welsch {
   static bool IsExact(double mu) { return mu <= 1.0; }
 
   static double Weight(double r2, double mu) { return std::exp(-r2 / mu); }
+  static double WeightSlope(double r2, double mu) {
+    return -Weight(r2, mu) / mu;
+  }
   static double OutlierProcess(double w, double mu) {
     return w > 0.0 ? mu * (1.0 - w + w * std::log(w)) : mu;
   }

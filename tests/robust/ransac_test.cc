@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -480,8 +481,9 @@ TEST(Ransac, WhatIsFoundAmongRandomMatchesIsNotVouchedFor) {
     const ProblemWithNormals problem =
         MakeProblem({.num_inliers = 0, .num_outliers = 300}, 5);
     const RansacSummary summary = Solve(problem, WithSample(sample));
-    EXPECT_FALSE(JudgeSummary(problem.source, problem.target, summary, 0.3, {})
-                     .IsRegistered());
+    EXPECT_FALSE(
+        Judge(problem.source, problem.target, summary, 0.3, std::nullopt, {})
+            .IsRegistered());
   }
 }
 

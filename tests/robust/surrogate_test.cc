@@ -109,6 +109,19 @@ TYPED_TEST(SurrogateTest, WeightIsTheSlopeOfTheLoss) {
   }
 }
 
+TYPED_TEST(SurrogateTest, SlopeOfTheWeightIsThatOfDifferences) {
+  constexpr double kStep = 1e-6;
+  for (const double mu : {0.01, 0.3, 1.0, 4.0, 50.0}) {
+    for (const double r2 : {0.2, 0.6, 0.95, 1.3, 2.5, 7.0, 200.0}) {
+      const double slope = (TypeParam::Weight(r2 + kStep, mu) -
+                            TypeParam::Weight(r2 - kStep, mu)) /
+                           (2.0 * kStep);
+      EXPECT_NEAR(TypeParam::WeightSlope(r2, mu), slope, 1e-6)
+          << "r2 " << r2 << ", mu " << mu;
+    }
+  }
+}
+
 TYPED_TEST(SurrogateTest, LossIsNothingForNoResidualAndAtMostTheSquare) {
   for (const double mu : {0.01, 1.0, 50.0}) {
     EXPECT_EQ(TypeParam::Loss(0.0, mu), 0.0) << "mu " << mu;
