@@ -140,8 +140,8 @@ TEST_F(StructureOverlapTest, AnyAxisMayBeUp) {
   const Points target_normals = axes.Apply(target_.normals);
   const auto overlap = [&](const Eigen::Vector3d& up) {
     return MeasureStructureOverlap(
-        {Eigen::Vector3d::Zero(), source_tree, source_normals, up},
-        {Eigen::Vector3d::Zero(), target_tree, target_normals, up},
+        {Eigen::Vector3d::Zero(), source_tree, source_normals, true, up},
+        {Eigen::Vector3d::Zero(), target_tree, target_normals, true, up},
         axes * target_from_source_ * Inverse(axes),
         kMaxDistance,
         1);
