@@ -20,6 +20,7 @@ constexpr double kCloudsWeights[] = {
 
 // What is assumed where free space is not known: it says little either way.
 constexpr double kUsualContradictedShare = 0.1;
+constexpr double kUsualRivalContradictedShare = 0.15;
 
 // 0 below `low`, 1 above `high`.
 double Ramp(double x, double low, double high) {
@@ -37,16 +38,20 @@ std::vector<Feature> MakeFeatures(
        Ramp(std::log1p(std::max(0.0, -log10_false_alarms)), 0.0, 3.0)},
       {"margin", rival ? Ramp(rival->margin, 0.0, 3.0) : 1.0}};
   if (!geometry) return features;
+  const bool is_known = geometry->free_space.ContradictedShare().has_value();
   const double contradicted = geometry->free_space.ContradictedShare().value_or(
       kUsualContradictedShare);
   const double rival_contradicted =
-      geometry->rival_free_space.ContradictedShare().value_or(contradicted);
+      geometry->rival_free_space.ContradictedShare().value_or(
+          is_known ? contradicted : kUsualRivalContradictedShare);
   features.push_back({"overlap", Ramp(geometry->structure_overlap, 0.0, 0.3)});
   features.push_back({"free_space", Ramp(1.0 - contradicted, 0.5, 0.95)});
   features.push_back(
       {"distinctness", Ramp(geometry->Distinctness(), 0.0, 0.15)});
-  features.push_back({"rival_contradicted",
-                      Ramp(rival_contradicted - contradicted, 0.0, 0.1)});
+  features.push_back(
+      {"rival_refuted",
+       std::max(Ramp(rival_contradicted - contradicted, 0.0, 0.1),
+                Ramp(geometry->Distinctness(), 0.4, 0.5))});
   features.push_back(
       {"held",
        Ramp(std::log10(std::max(1e-3, geometry->weakest_share)), -2.0, -0.8)});

@@ -13,7 +13,8 @@
 //   overlap             structure that is met              0 .. 0.3
 //   free_space          1 - contradicted share             0.5 .. 0.95
 //   distinctness        overlap over that of the rival     0 .. 0.15
-//   rival_contradicted  its contradicted share over ours   0 .. 0.1
+//   rival_refuted       its contradicted share over ours   0 .. 0.1
+//                       or, if more, the distinctness      0.4 .. 0.5
 //   held                log10 of the weakest share         -2 .. -0.8
 //
 // (robust/false_alarms.h, robust/rival.h, robust/evidence.h.) The weights were

@@ -161,7 +161,14 @@ Verdict Judge(const PointsRef& source,
          << " % of what stands in one scan is met in the other";
     verdict.reason += text.str();
   }
-  if (!verdict.IsRegistered()) verdict.reason += DescribeDoubts(verdict, pose);
+  if (!verdict.IsRegistered()) {
+    std::ostringstream text;
+    text.precision(2);
+    text << DescribeDoubts(verdict, pose) << "; right with a probability of "
+         << verdict.probability << ", " << options.min_probability
+         << " is asked for";
+    verdict.reason += text.str();
+  }
   return verdict;
 }
 

@@ -197,7 +197,7 @@ TEST(RegisterWithRefinement, PoseIsRefinedAndTheOneBeforeIsKept) {
     EXPECT_LE(
         (one.target_from_source()->translation - truth.translation).norm(),
         0.1);
-    EXPECT_EQ(one.stage_times[one.stage_times.size() - 2].stage, "refinement");
+    EXPECT_EQ(one.stage_times[one.stage_times.size() - 3].stage, "refinement");
 
     options.num_threads = 2;
     const RegistrationSummary two = Register(source, target, options);

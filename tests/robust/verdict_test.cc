@@ -49,7 +49,7 @@ double Log10FalseAlarms(const Verdict& verdict) {
 }
 
 TEST(Judge, RegistersAGoodConsensus) {
-  for (const Eigen::Index num_inliers : {10, 20, 100}) {
+  for (const Eigen::Index num_inliers : {12, 20, 100}) {
     const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = num_inliers, .num_outliers = 200},
                            /*seed=*/1);
@@ -186,6 +186,7 @@ TEST(Judge, TakesTheCloudsIntoAccount) {
   good.structure_overlap = 0.7;
   good.free_space = {3, 97};
   good.weakest_share = 0.3;
+  good.rival_free_space = {30, 70};
   good.rival.overlap = 0.7;
   good.rival.rival_overlap = 0.2;
   EXPECT_TRUE(judge(good).IsRegistered()) << judge(good).reason;
