@@ -5,6 +5,10 @@
 
 #ifdef QUATRO_WITH_OPEN3D
 #include "experiments/peers/open3d.h"
+#include "experiments/peers/open3d_icp.h"
+#endif
+#ifdef QUATRO_WITH_PCL
+#include "experiments/peers/pcl_icp.h"
 #endif
 #include "robust/arc_consensus.h"
 #include "robust/fgr.h"
@@ -103,6 +107,7 @@ PoseSolver MakeOpen3dRansac(const QuatroOptions& options) {
 
 RegistrationSummary RegisterCoarseToFine(const PointCloud& source,
                                          const PointCloud& target,
+                                         const Rigid3&,
                                          const RegistrationOptions& options) {
   RegistrationOptions c2f = options;
   c2f.solver = MakeQuatro(options.quatro);
@@ -110,19 +115,38 @@ RegistrationSummary RegisterCoarseToFine(const PointCloud& source,
   return Register(source, target, c2f);
 }
 
-// From no motion as the guess.
 template <RefinementMethod method>
-RegistrationSummary RegisterFromIdentity(const PointCloud& source,
-                                         const PointCloud& target,
-                                         const RegistrationOptions& options) {
+RegistrationSummary RegisterFromGuess(const PointCloud& source,
+                                      const PointCloud& target,
+                                      const Rigid3& target_from_source_guess,
+                                      const RegistrationOptions& options) {
   RegistrationOptions local = options;
   local.refinement.method = method;
-  return RegisterLocally(source, target, Rigid3(), local);
+  return RegisterLocally(source, target, target_from_source_guess, local);
 }
+
+#if defined(QUATRO_WITH_OPEN3D) || defined(QUATRO_WITH_PCL)
+using Aligner = AlignmentSummary (*)(const Points& source,
+                                     const Points& target,
+                                     const Rigid3& initial_target_from_source,
+                                     const RefinementOptions& options);
+
+template <Aligner align, RefinementMethod method>
+RegistrationSummary RegisterByPeer(const PointCloud& source,
+                                   const PointCloud& target,
+                                   const Rigid3& target_from_source_guess,
+                                   const RegistrationOptions& options) {
+  RegistrationOptions local = options;
+  local.refinement.method = method;
+  return RegisterLocally(
+      source, target, target_from_source_guess, local, align);
+}
+#endif
 
 enum class Ins { kRefused, kTaken, kNeeded };
 
-// From matches, `make`, or else from clouds, `register_clouds`.
+// From matches, `make`, or from clouds, `register_clouds`, or else an odometry
+// (experiments/odometry/odometry_methods.h).
 struct Method {
   const char* name;
   const char* description;
@@ -130,8 +154,11 @@ struct Method {
   Ins ins = Ins::kRefused;
   RegistrationSummary (*register_clouds)(const PointCloud& source,
                                          const PointCloud& target,
+                                         const Rigid3& target_from_source_guess,
                                          const RegistrationOptions& options) =
       nullptr;
+
+  bool IsOdometry() const { return !make && !register_clouds; }
 };
 
 constexpr Method kMethods[] = {
@@ -180,17 +207,47 @@ constexpr Method kMethods[] = {
      "clouds: point to point from no motion",
      nullptr,
      Ins::kRefused,
-     RegisterFromIdentity<RefinementMethod::kIcp>},
+     RegisterFromGuess<RefinementMethod::kIcp>},
     {"gicp",
      "clouds: plane to plane from no motion",
      nullptr,
      Ins::kRefused,
-     RegisterFromIdentity<RefinementMethod::kGicp>},
+     RegisterFromGuess<RefinementMethod::kGicp>},
     {"vgicp",
      "clouds: plane to voxels' planes from no motion",
      nullptr,
      Ins::kRefused,
-     RegisterFromIdentity<RefinementMethod::kVgicp>},
+     RegisterFromGuess<RefinementMethod::kVgicp>},
+#ifdef QUATRO_WITH_OPEN3D
+    {"open3d_icp",
+     "clouds: ICP of Open3D from no motion, the same voxels",
+     nullptr,
+     Ins::kRefused,
+     RegisterByPeer<AlignByOpen3d, RefinementMethod::kIcp>},
+    {"open3d_gicp",
+     "clouds: G-ICP of Open3D from no motion, the same voxels",
+     nullptr,
+     Ins::kRefused,
+     RegisterByPeer<AlignByOpen3d, RefinementMethod::kGicp>},
+#endif
+#ifdef QUATRO_WITH_PCL
+    {"pcl_icp",
+     "clouds: ICP of PCL from no motion, the same voxels",
+     nullptr,
+     Ins::kRefused,
+     RegisterByPeer<AlignByPcl, RefinementMethod::kIcp>},
+    {"pcl_gicp",
+     "clouds: G-ICP of PCL from no motion, the same voxels",
+     nullptr,
+     Ins::kRefused,
+     RegisterByPeer<AlignByPcl, RefinementMethod::kGicp>},
+#endif
+    {"aloam",
+     "scans in a row (quatro_odometry): edges and planes, like A-LOAM",
+     nullptr},
+    {"suma",
+     "scans in a row (quatro_odometry): surfels, projective, like SuMa",
+     nullptr},
 };
 
 // The names of the methods that take an INS: "auto, quatro, ...".
@@ -221,6 +278,14 @@ std::vector<std::string> CloudMethodNames() {
   return names;
 }
 
+std::vector<std::string> OdometryMethodNames() {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) {
+    if (method.IsOdometry()) names.emplace_back(method.name);
+  }
+  return names;
+}
+
 std::string DescribeMethods() {
   std::string text;
   for (const Method& method : kMethods) {
@@ -237,6 +302,11 @@ PoseSolver MakeLevelSolver(const std::string& name,
                            std::string* error) {
   for (const Method& method : kMethods) {
     if (name != method.name) continue;
+    if (method.IsOdometry()) {
+      *error = "--method=" + name +
+               " is an odometry, of scans in a row: run quatro_odometry";
+      return nullptr;
+    }
     if (!method.make) {
       *error = "--method=" + name + " works on clouds, not on matches";
       return nullptr;
@@ -258,7 +328,7 @@ PoseSolver MakeLevelSolver(const std::string& name,
   }
   *error = "--method=" + name + ", must be one of";
   for (const Method& method : kMethods) {
-    *error += std::string(" ") + method.name;
+    if (!method.IsOdometry()) *error += std::string(" ") + method.name;
   }
   return nullptr;
 }

@@ -16,18 +16,22 @@
 #include "robust/quatro.h"
 #include "robust/refinement.h"
 #include "robust/registration.h"
+#include "solvers/rigid3.h"
 
 namespace quatro {
 
 std::vector<std::string> MethodNames();       // From matched points.
 std::vector<std::string> CloudMethodNames();  // From clouds.
 
+std::vector<std::string> OdometryMethodNames();  // From scans in a row.
+
 // One line a method, its name and what it does.
 std::string DescribeMethods();
 
 // The method with noise bound, seed, threads and all else that applies to it
 // from `options`. Empty, with *error set, for a name that is not known, for a
-// method that works on clouds, and for quatro_ins, which needs an INS.
+// method that works on clouds or on scans in a row, and for quatro_ins, which
+// needs an INS.
 PoseSolver MakeSolver(const std::string& name,
                       const QuatroOptions& options,
                       std::string* error);
@@ -46,9 +50,11 @@ PoseSolver MakeLevelSolver(const std::string& name,
                            const InsOptions& ins,
                            std::string* error);
 
+// A global method does not look at the guess.
 using CloudSolver =
     std::function<RegistrationSummary(const PointCloud& source,
                                       const PointCloud& target,
+                                      const Rigid3& target_from_source_guess,
                                       const RegistrationOptions& options)>;
 
 // The method that works on clouds; empty if there is none of this name.

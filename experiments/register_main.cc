@@ -196,8 +196,8 @@ int main(int argc, char** argv) {
   const quatro::CloudSolver cloud_solver =
       quatro::FindCloudSolver(FLAGS_method);
   const quatro::RegistrationSummary summary =
-      (cloud_solver ? cloud_solver : quatro::Register)(
-          *source, *target, *options);
+      cloud_solver ? cloud_solver(*source, *target, quatro::Rigid3(), *options)
+                   : quatro::Register(*source, *target, *options);
   if (!summary.error.empty()) return Fail(summary.error);
 
   quatro::Json report = quatro::MakeReport(FLAGS_method,

@@ -59,12 +59,37 @@ Verdict JudgeAlignment(const AlignmentSummary& alignment) {
   return verdict;
 }
 
-}  // namespace
+using FinishStage = std::function<void(const char* stage)>;
 
-RegistrationSummary RegisterLocally(const PointCloud& source,
-                                    const PointCloud& target,
-                                    const Rigid3& initial_target_from_source,
-                                    const RegistrationOptions& options) {
+AlignmentSummary AlignVoxels(Points source,
+                             Points target,
+                             const Rigid3& initial_target_from_source,
+                             const RefinementOptions& options,
+                             const FinishStage& finish_stage) {
+  const int num_threads = options.alignment.num_threads;
+  const KdTree source_tree(std::move(source));
+  const KdTree target_tree(std::move(target));
+  Points source_normals;
+  Points target_normals;
+  if (options.method != RefinementMethod::kIcp) {
+    source_normals =
+        EstimateNearestNormals(source_tree, kNumNeighbors, num_threads);
+    target_normals =
+        EstimateNearestNormals(target_tree, kNumNeighbors, num_threads);
+  }
+  finish_stage("normals");
+  return Align({source_tree, source_normals},
+               {target_tree, target_normals},
+               initial_target_from_source,
+               options);
+}
+
+// By `align`, or ours if it is empty.
+RegistrationSummary RegisterBy(const PointCloud& source,
+                               const PointCloud& target,
+                               const Rigid3& initial_target_from_source,
+                               const RegistrationOptions& options,
+                               const CloudAligner& align) {
   RegistrationSummary summary;
   if (!options.IsValid(&summary.error)) return summary;
   if (options.refinement.method == RefinementMethod::kNone) {
@@ -73,7 +98,7 @@ RegistrationSummary RegisterLocally(const PointCloud& source,
   }
   Stopwatch total;
   Stopwatch stopwatch;
-  const auto finish_stage = [&](const char* stage) {
+  const FinishStage finish_stage = [&](const char* stage) {
     summary.stage_times.push_back({stage, stopwatch.Lap()});
     if (options.progress) options.progress(summary.stage_times.back());
   };
@@ -86,26 +111,20 @@ RegistrationSummary RegisterLocally(const PointCloud& source,
   summary.num_target_voxels = target_voxels->cols();
   finish_stage("voxels");
 
-  const KdTree source_tree(std::move(*source_voxels));
-  const KdTree target_tree(std::move(*target_voxels));
-  Points source_normals;
-  Points target_normals;
-  if (options.refinement.method != RefinementMethod::kIcp) {
-    source_normals =
-        EstimateNearestNormals(source_tree, kNumNeighbors, options.num_threads);
-    target_normals =
-        EstimateNearestNormals(target_tree, kNumNeighbors, options.num_threads);
-  }
-  finish_stage("normals");
-
+  const Eigen::Vector3d source_middle = source_voxels->rowwise().mean();
   RefinementOptions by = options.refinement;
   by.alignment.num_threads = options.num_threads;
   RefinementSummary refinement;
   refinement.method = by.method;
-  refinement.alignment = Align({source_tree, source_normals},
-                               {target_tree, target_normals},
-                               initial_target_from_source,
-                               by);
+  refinement.alignment =
+      align
+          ? align(
+                *source_voxels, *target_voxels, initial_target_from_source, by)
+          : AlignVoxels(std::move(*source_voxels),
+                        std::move(*target_voxels),
+                        initial_target_from_source,
+                        by,
+                        finish_stage);
   const AlignmentSummary& alignment = refinement.alignment;
   refinement.message = alignment.message;
   refinement.unrefined_target_from_source = initial_target_from_source;
@@ -117,14 +136,31 @@ RegistrationSummary RegisterLocally(const PointCloud& source,
     summary.solution.target_from_source = alignment.target_from_source;
     refinement.is_accepted = true;
     refinement.target_from_source = *alignment.target_from_source;
-    refinement.SetMoved(source_tree.points().rowwise().mean(),
-                        *alignment.target_from_source);
+    refinement.SetMoved(source_middle, *alignment.target_from_source);
   }
   summary.refinement = std::move(refinement);
   finish_stage("alignment");
   summary.verdict = JudgeAlignment(summary.refinement->alignment);
   summary.total_seconds = total.Lap();
   return summary;
+}
+
+}  // namespace
+
+RegistrationSummary RegisterLocally(const PointCloud& source,
+                                    const PointCloud& target,
+                                    const Rigid3& initial_target_from_source,
+                                    const RegistrationOptions& options) {
+  return RegisterBy(
+      source, target, initial_target_from_source, options, nullptr);
+}
+
+RegistrationSummary RegisterLocally(const PointCloud& source,
+                                    const PointCloud& target,
+                                    const Rigid3& initial_target_from_source,
+                                    const RegistrationOptions& options,
+                                    const CloudAligner& align) {
+  return RegisterBy(source, target, initial_target_from_source, options, align);
 }
 
 }  // namespace quatro

@@ -12,7 +12,11 @@
 #ifndef QUATRO_ROBUST_LOCAL_REGISTRATION_H_
 #define QUATRO_ROBUST_LOCAL_REGISTRATION_H_
 
+#include <functional>
+
 #include "features/point_cloud.h"
+#include "features/types.h"
+#include "robust/refinement.h"
 #include "robust/registration.h"
 #include "solvers/rigid3.h"
 
@@ -25,6 +29,21 @@ RegistrationSummary RegisterLocally(const PointCloud& source,
                                     const PointCloud& target,
                                     const Rigid3& initial_target_from_source,
                                     const RegistrationOptions& options);
+
+// Another aligner of the voxel means. Options that it does not know of are up
+// to it.
+using CloudAligner =
+    std::function<AlignmentSummary(const Points& source,
+                                   const Points& target,
+                                   const Rigid3& initial_target_from_source,
+                                   const RefinementOptions& options)>;
+
+// The same by `align` in place of ours, to compare with others.
+RegistrationSummary RegisterLocally(const PointCloud& source,
+                                    const PointCloud& target,
+                                    const Rigid3& initial_target_from_source,
+                                    const RegistrationOptions& options,
+                                    const CloudAligner& align);
 
 }  // namespace quatro
 

@@ -331,6 +331,9 @@ RansacSummary SolveRansac(const PointsRef& source,
   summary.num_translation_inliers = summary.num_consistent;
   summary.translation_inliers = summary.consistent;
   summary.target_from_source = problem.Uncentered(best->pose);
+  summary.model = sample == MinimalSample::kThreePoints
+                      ? PoseModel::kRigid
+                      : PoseModel::kYawTranslation;
   summary.termination = PoseTermination::kSolved;
   summary.message = "solved";
   return summary;

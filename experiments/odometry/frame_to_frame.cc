@@ -10,10 +10,22 @@
 namespace quatro {
 
 FrameAligner MakeRegistrationAligner(const RegistrationOptions& options) {
-  return [options](const PointCloud& source,
-                   const PointCloud& target,
-                   const Rigid3&) -> FrameAlignment {
-    const RegistrationSummary summary = Register(source, target, options);
+  return MakeCloudAligner(
+      [](const PointCloud& source,
+         const PointCloud& target,
+         const Rigid3&,
+         const RegistrationOptions& given) {
+        return Register(source, target, given);
+      },
+      options);
+}
+
+FrameAligner MakeCloudAligner(const CloudSolver& solver,
+                              const RegistrationOptions& options) {
+  return [solver, options](const PointCloud& source,
+                           const PointCloud& target,
+                           const Rigid3& guess) -> FrameAlignment {
+    const RegistrationSummary summary = solver(source, target, guess, options);
     if (!summary.error.empty()) return {std::nullopt, summary.error};
     return {summary.target_from_source(),
             std::string(StatusName(summary.verdict.status)) + ": " +

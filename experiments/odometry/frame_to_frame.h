@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/methods.h"
 #include "experiments/odometry/odometry.h"
 #include "features/point_cloud.h"
 #include "robust/registration.h"
@@ -33,6 +34,10 @@ using FrameAligner =
 // By Register(). Its pose counts whether or not it is vouched for, as in the
 // paper's table; the message holds the verdict.
 FrameAligner MakeRegistrationAligner(const RegistrationOptions& options);
+
+// The same by a method from clouds.
+FrameAligner MakeCloudAligner(const CloudSolver& solver,
+                              const RegistrationOptions& options);
 
 class FrameToFrame : public Odometry {
  public:

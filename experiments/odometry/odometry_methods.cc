@@ -23,37 +23,33 @@ std::unique_ptr<Odometry> MakeSuma(int num_threads) {
   return std::make_unique<Suma>(options);
 }
 
+// Described in experiments/methods.cc.
 struct Method {
   const char* name;
-  const char* description;
   std::unique_ptr<Odometry> (*make)(int num_threads);
 };
 
 constexpr Method kMethods[] = {
-    {"aloam",
-     "like A-LOAM: edges and planes, to the scan, to the map",
-     MakeAloam},
-    {"suma", "like SuMa: surfels, projective, frame to model", MakeSuma},
+    {"aloam", MakeAloam},
+    {"suma", MakeSuma},
 };
 
 }  // namespace
 
 std::vector<std::string> OdometryNames() {
-  std::vector<std::string> names;
-  for (const Method& method : kMethods) names.emplace_back(method.name);
-  for (const std::string& name : MethodNames()) names.push_back(name);
+  std::vector<std::string> names = OdometryMethodNames();
+  std::string error;
+  for (const std::string& name : MethodNames()) {
+    if (MakeSolver(name, {}, &error)) names.push_back(name);  // Needs no INS.
+  }
+  for (const std::string& name : CloudMethodNames()) names.push_back(name);
   return names;
 }
 
 std::string DescribeOdometries() {
-  std::string text;
-  for (const Method& method : kMethods) {
-    std::string name = method.name;
-    name.resize(16, ' ');
-    text += name + method.description + "\n";
-  }
-  return text + "and from each scan to the one before it:\n" +
-         DescribeMethods();
+  return DescribeMethods() +
+         "All but the odometries from each scan to the one before it, icp and "
+         "the like\nfrom constant velocity in place of no motion.\n";
 }
 
 std::unique_ptr<Odometry> MakeOdometry(const std::string& name,
@@ -66,6 +62,9 @@ std::unique_ptr<Odometry> MakeOdometry(const std::string& name,
   RegistrationOptions options = registration;
   options.quatro.num_threads = registration.num_threads;
   options.quatro.seed = registration.seed;
+  if (const CloudSolver clouds = FindCloudSolver(name)) {
+    return std::make_unique<FrameToFrame>(MakeCloudAligner(clouds, options));
+  }
   options.solver = MakeSolver(name, options.quatro, error);
   if (!options.solver) {
     *error = "--method=" + name + ", must be one of";

@@ -157,9 +157,25 @@ TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
   }
 }
 
+TEST(Methods, OdometriesAreListedAndPointToTheirProgram) {
+  EXPECT_THAT(OdometryMethodNames(), UnorderedElementsAre("aloam", "suma"));
+  for (const std::string& name : OdometryMethodNames()) {
+    EXPECT_THAT(DescribeMethods(), HasSubstr("\n" + name + " "));
+    std::string error;
+    EXPECT_FALSE(MakeSolver(name, {}, &error));
+    EXPECT_THAT(error, HasSubstr("--method=" + name + " is an odometry"));
+    EXPECT_THAT(error, HasSubstr("quatro_odometry"));
+    EXPECT_FALSE(FindCloudSolver(name));
+  }
+  // Where they can't be run they are not offered.
+  std::string error;
+  EXPECT_FALSE(MakeSolver("nothing", {}, &error));
+  EXPECT_THAT(error, ::testing::Not(HasSubstr("suma")));
+}
+
 TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
   EXPECT_THAT(CloudMethodNames(),
-              UnorderedElementsAre("quatro_c2f", "icp", "gicp", "vgicp"));
+              IsSupersetOf({"quatro_c2f", "icp", "gicp", "vgicp"}));
   for (const std::string& name : CloudMethodNames()) {
     std::string error;
     EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
@@ -182,18 +198,34 @@ TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
   RegistrationOptions options;
   for (const std::string& name : CloudMethodNames()) {
     const RegistrationSummary summary =
-        FindCloudSolver(name)(source, target, options);
+        FindCloudSolver(name)(source, target, Rigid3(), options);
     ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
     EXPECT_TRUE(summary.refinement->is_accepted) << name;
     const bool is_global = name == "quatro_c2f";
+    // That of a peer: open3d_icp.
     EXPECT_EQ(RefinementName(summary.refinement->method),
-              is_global ? "gicp" : name);
+              is_global ? "gicp" : name.substr(name.find('_') + 1));
     EXPECT_EQ(summary.verdict.IsRegistered(), is_global) << name;
     EXPECT_LE((summary.target_from_source()->translation -
                Eigen::Vector3d(0.2, -0.1, 0.0))
                   .norm(),
               0.1)
         << name;
+  }
+}
+
+TEST(Methods, LocalOnesStartFromTheGuess) {
+  PointCloud cloud;
+  cloud.points = RandomStreet(3000, 0.01, 1);
+  const Rigid3 guess{RotationZ(0.02), {0.2, 0.1, 0.0}};
+  for (const std::string& name : CloudMethodNames()) {
+    if (name == "quatro_c2f") continue;
+    const RegistrationSummary summary =
+        FindCloudSolver(name)(cloud, cloud, guess, {});
+    ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
+    EXPECT_EQ(summary.refinement->unrefined_target_from_source.ToMatrix(),
+              guess.ToMatrix());
+    EXPECT_GT(summary.refinement->moved_rotation, 0.01) << name;
   }
 }
 

@@ -256,6 +256,10 @@ TEST_F(RegisterProgramTest, UnknownMethod) {
   ExpectRefusedFlag("--method=magic", "--method=magic", "must be");
 }
 
+TEST_F(RegisterProgramTest, AnOdometryIsOfAnotherProgram) {
+  ExpectRefusedFlag("--method=aloam", "--method=aloam", "quatro_odometry");
+}
+
 TEST_F(RegisterProgramTest, UnknownRefinement) {
   ExpectRefusedFlag("--refine=best", "--refine=best", "none, icp, gicp");
 }

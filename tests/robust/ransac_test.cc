@@ -192,6 +192,18 @@ TEST(Ransac, FindsThePoseAmongOutliers) {
   }
 }
 
+TEST(Ransac, SaysWhetherRollAndPitchWereEstimated) {
+  const ProblemWithNormals problem = MakeProblem({}, 1);
+  for (const MinimalSample sample : kSamples) {
+    const RansacSummary summary = Solve(problem, WithSample(sample));
+    ASSERT_TRUE(summary.IsUsable()) << summary.message;
+    EXPECT_EQ(summary.model,
+              sample == MinimalSample::kThreePoints
+                  ? PoseModel::kRigid
+                  : PoseModel::kYawTranslation);
+  }
+}
+
 TEST(Ransac, ThreePointsFindAnyRotation) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     ProblemWithNormals problem =

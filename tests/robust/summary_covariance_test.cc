@@ -15,6 +15,7 @@
 #include "robust/arc_consensus.h"
 #include "robust/ins.h"
 #include "robust/quatro.h"
+#include "robust/ransac.h"
 #include "robust/teaser.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
@@ -63,6 +64,10 @@ TEST_F(AddCovarianceTest, EveryEstimatorHasOneAndSaysWhatItEstimated) {
   teaser.noise_bound = kNoiseBound;
   ArcConsensusOptions arc;
   arc.noise_bound = kNoiseBound;
+  RansacOptions three_points;
+  three_points.minimal.noise_bound = kNoiseBound;
+  RansacOptions two_points = three_points;
+  two_points.minimal.sample = MinimalSample::kTwoPoints;
   const struct {
     const char* name;
     PoseSummary summary;
@@ -78,7 +83,15 @@ TEST_F(AddCovarianceTest, EveryEstimatorHasOneAndSaysWhatItEstimated) {
        SolveArcConsensus(source, target, arc),
        PoseModel::kYawTranslation,
        4},
-      {"teaser", SolveTeaser(source, target, teaser), PoseModel::kRigid, 6}};
+      {"teaser", SolveTeaser(source, target, teaser), PoseModel::kRigid, 6},
+      {"ransac, three points",
+       SolveRansac(source, target, three_points),
+       PoseModel::kRigid,
+       6},
+      {"ransac, two points",
+       SolveRansac(source, target, two_points),
+       PoseModel::kYawTranslation,
+       4}};
   for (const auto& [name, summary, model, rank] : cases) {
     EXPECT_EQ(summary.model, model) << name;
     const auto given = WithCovariance(problem_, summary);
