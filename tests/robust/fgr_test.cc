@@ -17,6 +17,7 @@
 #include "robust/verdict.h"
 #include "solvers/ceres_residuals.h"
 #include "tests/support/matched_problems.h"
+#include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -28,40 +29,12 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Turned anyhow, not about z alone.
-KnownProblem TurnedProblem(Eigen::Index num_inliers,
-                           Eigen::Index num_outliers,
-                           std::uint64_t seed) {
-  KnownProblem problem =
-      MakeMatchedProblem({.num_inliers = num_inliers,
-                          .num_outliers = num_outliers,
-                          .half_widths = Eigen::Vector3d::Constant(30.0)},
-                         seed);
-  const Rigid3 turn{RandomRotation(seed), {1.0, 2.0, 3.0}};
-  problem.true_target_from_source = turn * problem.true_target_from_source;
-  problem.target = turn.Apply(problem.target);
-  return problem;
-}
-
 FgrSummary Solve(const KnownProblem& problem, const FgrOptions& options = {}) {
   return SolveFgr(problem.source, problem.target, options);
 }
 
 Vector6 RandomTwist(double sigma, std::uint64_t seed) {
   return RandomPoints(2, sigma, seed).reshaped();
-}
-
-double PoseError(const FgrSummary& summary, const KnownProblem& problem) {
-  return LargestDisplacement(*summary.target_from_source,
-                             problem.true_target_from_source,
-                             problem.source);
-}
-
-void ExpectNoAnswer(const FgrSummary& summary, PoseTermination termination) {
-  EXPECT_EQ(summary.termination, termination) << summary.message;
-  EXPECT_FALSE(summary.IsUsable());
-  EXPECT_TRUE(summary.translation_inliers.empty());
-  EXPECT_FALSE(summary.message.empty());
 }
 
 void ExpectSameBits(const FgrSummary& a, const FgrSummary& b) {

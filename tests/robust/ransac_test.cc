@@ -18,6 +18,7 @@
 #include "robust/verdict.h"
 #include "solvers/rotation.h"
 #include "tests/support/matched_problems.h"
+#include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -69,19 +70,6 @@ RansacOptions WithSample(MinimalSample sample) {
 RansacSummary Solve(const ProblemWithNormals& problem,
                     const RansacOptions& options = {}) {
   return SolveRansac(problem.source, problem.target, options, &problem.normals);
-}
-
-double PoseError(const RansacSummary& summary, const KnownProblem& problem) {
-  return LargestDisplacement(*summary.target_from_source,
-                             problem.true_target_from_source,
-                             problem.source);
-}
-
-void ExpectNoAnswer(const RansacSummary& summary, PoseTermination termination) {
-  EXPECT_EQ(summary.termination, termination) << summary.message;
-  EXPECT_FALSE(summary.IsUsable());
-  EXPECT_TRUE(summary.translation_inliers.empty());
-  EXPECT_FALSE(summary.message.empty());
 }
 
 void ExpectSameBits(const RansacSummary& a, const RansacSummary& b) {

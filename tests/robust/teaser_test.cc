@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tests/support/matched_problems.h"
+#include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -26,34 +27,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 TeaserSummary Solve(const KnownProblem& problem,
                     const TeaserOptions& options = {}) {
   return SolveTeaser(problem.source, problem.target, options);
-}
-
-// Turned anyhow, not about z alone.
-KnownProblem TurnedProblem(Eigen::Index num_inliers,
-                           Eigen::Index num_outliers,
-                           std::uint64_t seed) {
-  KnownProblem problem =
-      MakeMatchedProblem({.num_inliers = num_inliers,
-                          .num_outliers = num_outliers,
-                          .half_widths = Eigen::Vector3d::Constant(30.0)},
-                         seed);
-  const Rigid3 turn{RandomRotation(seed), {1.0, 2.0, 3.0}};
-  problem.true_target_from_source = turn * problem.true_target_from_source;
-  problem.target = turn.Apply(problem.target);
-  return problem;
-}
-
-double PoseError(const TeaserSummary& summary, const KnownProblem& problem) {
-  return LargestDisplacement(*summary.target_from_source,
-                             problem.true_target_from_source,
-                             problem.source);
-}
-
-void ExpectNoAnswer(const TeaserSummary& summary, PoseTermination termination) {
-  EXPECT_EQ(summary.termination, termination) << summary.message;
-  EXPECT_FALSE(summary.IsUsable());
-  EXPECT_TRUE(summary.translation_inliers.empty());
-  EXPECT_FALSE(summary.message.empty());
 }
 
 void ExpectSameBits(const TeaserSummary& a, const TeaserSummary& b) {
