@@ -147,7 +147,7 @@ def main(args):
                               formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="RESULTS.csv", nargs="+", help="of run_pairs.py")
     parser.add_argument("--picture", metavar="FILE.png", help="file for the two diagrams")
-    parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_apart",
+    parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_twin,symmetric_apart",
                         metavar="SET,SET", help="of places that have a twin, which matches alone "
                         "cannot tell: left out of their model (default: %(default)s)")
     parser.add_argument("--alike", default="corridor_floor,hall_floor", metavar="SET,SET",
@@ -179,6 +179,8 @@ def main(args):
         report(f"  fitted on {len(fitted)}, reported on {len(reported)}", y, p, options.threshold)
         models.append((title, y, p))
         if chosen is names:
+            clear = np.array([not case.set.endswith("_twin") for case in reported])
+            report("    without exact twins", y[clear], p[clear], options.threshold)
             clear = np.array([case.set not in twins for case in reported])
             report("    without the sets of --twins", y[clear], p[clear], options.threshold)
             others = [case for case in answered if case.set in alike]

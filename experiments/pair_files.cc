@@ -62,9 +62,13 @@ std::string FileName(const PairSetOptions& set, int index, const char* which) {
 std::string FormatRow(const PairSetOptions& set,
                       int index,
                       const SetPair& pair) {
-  const std::string name = pair.apart == "other_floor"
-                               ? std::string(WorldName(set.world)) + "_floor"
-                               : set.Name();
+  std::string name = set.Name();
+  if (pair.apart == "other_floor") {
+    name = std::string(WorldName(set.world)) + "_floor";
+  } else if (pair.twin_target_from_source &&
+             pair.variant.find("_odd") == std::string::npos) {
+    name += "_twin";
+  }
   std::string row = name + "," + FileName(set, index, "source") + "," +
                     FileName(set, index, "target") + ",";
   if (pair.true_target_from_source) {

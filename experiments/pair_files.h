@@ -19,7 +19,8 @@
 //                                     has them, for the flags of that name
 //   ins_std_deg                       of each of these angles
 //   twin_tx ... twin_qw               of worlds with a symmetry: the other pose
-//                                     by which the scans fit
+//                                     by which the scans fit. Where nothing
+//                                     breaks the symmetry the set is WORLD_twin
 //
 // What is written does not depend on threads, on the number of pairs, or on
 // what was there before.
