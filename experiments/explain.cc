@@ -124,7 +124,7 @@ std::string ExplainSolver(const Json& report) {
       "consensus",
       Number(counts["clique"]) + " of " + Number(counts["correspondences"]) +
           " distinct matches are consistent with each other" +
-          ByChance(report, "clique") + Note(report, "clique"));
+          ByChance(report, "clique"));
   if (NumberOr(counts["tims"], 0.0) > 0.0) {
     text +=
         Paragraph("rotation",
@@ -150,9 +150,22 @@ std::string ExplainSolver(const Json& report) {
                           Number(At(report, {"parameters", "noise_bound"})) +
                           " m on each axis" + Note(report, "recovery"));
   }
-  for (const char* stage : {"polish", "ins", "refinement"}) {
-    const Json note = At(report, {"notes", stage});
-    if (note.is_string()) text += Paragraph(stage, note);
+  const Json polish = At(report, {"notes", "polish"});
+  if (polish.is_string()) text += Paragraph("polish", polish);
+  const Json ins_mode = At(report, {"parameters", "ins_mode"});
+  if (ins_mode.is_string() && ins_mode != "none") {
+    text +=
+        Paragraph("ins",
+                  "roll and pitch of the INS, " + ins_mode.get<std::string>() +
+                      "; " + report["message"].get<std::string>());
+  }
+  const Json refinement = At(report, {"refinement"});
+  if (refinement.is_object()) {
+    text += Paragraph("refinement",
+                      refinement["method"].get<std::string>() + " moved by " +
+                          Number(refinement["moved_m"]) + " m and " +
+                          Number(refinement["moved_deg"]) +
+                          " deg: " + refinement["message"].get<std::string>());
   }
   const Json unheld = At(report, {"unheld_directions"});
   if (unheld.is_array() && !unheld.empty()) {

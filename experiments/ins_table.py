@@ -24,7 +24,6 @@ The table goes to standard output, progress to standard error.
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
 import concurrent.futures
-import csv
 import math
 import os
 import pathlib
@@ -107,13 +106,7 @@ def parse_attitudes(row, names, where):
 
 def read_ins(path, is_own_file):
     """(source, target) -> (source's attitude, target's, standard deviation or None), in degrees."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
-            rows = [(reader.line_num, row) for row in reader]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise BadInput(f"{path}: {getattr(error, 'strerror', None) or error}") from None
-    names = reader.fieldnames or []
+    rows, names = run_pairs.read_rows(path)
     ways = [RPY, QUATERNION] if is_own_file else [RPY]
     if not any(set(way) <= set(names) for way in ways):
         missing = " nor ".join(",".join(way) for way in ways)

@@ -92,14 +92,19 @@ def parse_pose(row, where):
     return rotation_from_quaternion(*(q / norm for q in values[3:])), values[:3]
 
 
-def read_pairs(path, excluded):
+def read_rows(path):
+    """(line, row) of each, and the names of the columns."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
             reader = csv.DictReader(file)
             rows = [(reader.line_num, row) for row in reader]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise BadInput(f"{path}: {getattr(error, 'strerror', None) or error}") from None
-    names = reader.fieldnames or []
+    return rows, reader.fieldnames or []
+
+
+def read_pairs(path, excluded):
+    rows, names = read_rows(path)
     for name in ("source", "target"):
         if name not in names:
             raise BadInput(f"{path}: there is no column {name}")

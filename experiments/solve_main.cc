@@ -150,12 +150,16 @@ int main(int argc, char** argv) {
                         options->covariance,
                         &summary);
   const double total_seconds = stopwatch.Lap();
+  quatro::VerdictOptions verdict_options = options->verdict;
+  verdict_options.rival.seed = FLAGS_seed;
+  verdict_options.rival.num_threads = FLAGS_threads;
+  verdict_options.rival.up_in_target = ins->up;
   const quatro::Verdict verdict = quatro::Judge(matches->source,
                                                 matches->target,
                                                 summary,
                                                 options->quatro.noise_bound,
                                                 /*geometry=*/std::nullopt,
-                                                options->verdict);
+                                                verdict_options);
 
   quatro::Json report = quatro::MakeReport(
       FLAGS_method, verdict, summary, summary.stage_times, total_seconds);

@@ -47,7 +47,7 @@ struct VerdictOptions {
   // Registered iff the probability of success is no less.
   double min_probability = 0.8;
 
-  RivalOptions rival;  // Its seed and threads are those of the call.
+  RivalOptions rival;  // Register() replaces seed, threads and vertical.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

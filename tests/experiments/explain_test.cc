@@ -134,6 +134,23 @@ TEST(Explain, OfCloudsTellsTheFrontEndAndWhatSpeaksAgainst) {
   EXPECT_THAT(text, HasSubstr("free space"));
 }
 
+TEST(Explain, TellsOfAnInsAndOfARefinement) {
+  Json report = Report(MakeMatchedProblem({}, /*seed=*/7));
+  EXPECT_THAT(Explain(report), Not(HasSubstr("ins:")));
+  EXPECT_THAT(Explain(report), Not(HasSubstr("refinement:")));
+  report["parameters"]["ins_mode"] = "fused";
+  report["message"] = "solved; fused with the INS";
+  report["refinement"] = {{"method", "gicp"},
+                          {"moved_m", 0.25},
+                          {"moved_deg", 0.5},
+                          {"message", "taken"}};
+  const std::string text = Unwrapped(Explain(report));
+  EXPECT_THAT(text, HasSubstr("ins: roll and pitch of the INS, fused; solved"));
+  EXPECT_THAT(text,
+              HasSubstr("refinement: gicp moved by 0.25 m and 0.5 deg: "
+                        "taken"));
+}
+
 TEST(Explain, KeepsToTheWidthOfATerminal) {
   std::istringstream text(Explain(Report(MakeMatchedProblem({}, /*seed=*/5))));
   for (std::string line; std::getline(text, line);) {

@@ -15,6 +15,7 @@
 #include "robust/fgr.h"
 #include "robust/ransac.h"
 #include "tests/support/matched_problems.h"
+#include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -22,20 +23,6 @@ namespace {
 
 constexpr double kBound = 0.3;
 constexpr int kNumSeeds = 20;
-
-KnownProblem TurnedProblem(Eigen::Index num_inliers,
-                           Eigen::Index num_outliers,
-                           std::uint64_t seed) {
-  KnownProblem problem =
-      MakeMatchedProblem({.num_inliers = num_inliers,
-                          .num_outliers = num_outliers,
-                          .half_widths = Eigen::Vector3d::Constant(30.0)},
-                         seed);
-  const Rigid3 turn{RandomRotation(seed), {1.0, 2.0, 3.0}};
-  problem.true_target_from_source = turn * problem.true_target_from_source;
-  problem.target = turn.Apply(problem.target);
-  return problem;
-}
 
 bool IsRight(const PoseSummary& summary, const KnownProblem& problem) {
   return summary.IsUsable() &&
