@@ -90,7 +90,7 @@ struct RegistrationSummary {
   Eigen::Index num_target_voxels = 0;
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  PoseSummary solution;  // Its pose is the refined one, if there is one.
+  PoseSummary solution;  // The pose refined, the covariance of that before.
   std::optional<RefinementSummary> refinement;  // If asked for and tried.
 
   // What the surfaces hold; the directions that they do not are among
