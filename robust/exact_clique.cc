@@ -85,9 +85,9 @@ struct FreeClasses {
 
 // Header, re-colouring and conflict. Returns whether v needs no branch, which
 // it says as well where time is up.
-inline __attribute__((always_inline)) bool FindRoom(int v,
-                                                    const FreeClasses& free,
-                                                    Deadline* deadline) {
+QUATRO_SIMD_INLINE bool FindRoom(int v,
+                                 const FreeClasses& free,
+                                 Deadline* deadline) {
   const std::size_t num_words = free.num_words;
   const Word* const v_row = free.graph.Row(v).data();
   for (std::size_t a = 0; a < free.num_classes; ++a) {
