@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The front door: two point clouds in, a pose and how it came about out.
 //
-//   clouds -> voxels -> normals, FPFH -> matches -> Quatro -> refinement
+//   clouds -> front end (robust/front_end.h) -> Quatro -> refinement
 //          -> verdict
-//
-// Source: Section III.A of the Quatro paper for the front end.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_H_
 #define QUATRO_ROBUST_REGISTRATION_H_
@@ -19,8 +17,8 @@
 
 #include "features/point_cloud.h"
 #include "features/stopwatch.h"
-#include "features/tuple_test.h"
 #include "features/types.h"
+#include "robust/front_end.h"
 #include "robust/ins.h"
 #include "robust/pose_summary.h"
 #include "robust/quatro.h"
@@ -31,17 +29,6 @@
 #include "solvers/rigid3.h"
 
 namespace quatro {
-
-struct FrontEndOptions {
-  double voxel_size = 0.3;     // [m]
-  double normal_radius = 0.9;  // [m]
-  double fpfh_radius = 1.5;    // [m], no less than normal_radius.
-  bool tuple_test = true;
-  TupleTestOptions tuple;
-
-  // Returns false and says why in *error if a value is out of range.
-  bool IsValid(std::string* error) const;
-};
 
 struct RegistrationOptions {
   FrontEndOptions front_end;
@@ -108,6 +95,15 @@ struct RegistrationSummary {
 RegistrationSummary Register(const PointCloud& source,
                              const PointCloud& target,
                              const RegistrationOptions& options);
+
+// Its two halves, for those who try several estimators on the same matches. The
+// first takes front_end, ins, num_threads and seed of the options; another ins
+// in the second gives what Register() would for scans, which hold their sensor.
+MatchedClouds MatchClouds(const PointCloud& source,
+                          const PointCloud& target,
+                          const RegistrationOptions& options);
+RegistrationSummary RegisterMatched(const MatchedClouds& clouds,
+                                    const RegistrationOptions& options);
 
 }  // namespace quatro
 

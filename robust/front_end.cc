@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/front_end.h"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "features/fpfh.h"
+#include "features/matching.h"
+#include "features/normals.h"
+#include "features/voxel_grid.h"
+
+namespace quatro {
+namespace {
+
+AssumedSensor AssumeSensor(const Points& points, const Eigen::Vector3d& up) {
+  const Eigen::Vector3d low = points.rowwise().minCoeff();
+  const Eigen::Vector3d high = points.rowwise().maxCoeff();
+  const Eigen::Vector3d margin = 0.5 * (high - low);
+  AssumedSensor sensor;
+  sensor.is_scan =
+      (low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0;
+  if (sensor.is_scan) return sensor;
+  const Eigen::Vector3d middle = 0.5 * (low + high);
+  sensor.place =
+      middle + up * (up.transpose() * (points.colwise() - middle)).maxCoeff();
+  return sensor;
+}
+
+// Sets what is kept of the cloud and returns its descriptors.
+Fpfh Describe(const Points& points,
+              const Eigen::Vector3d& up,
+              const FrontEndOptions& options,
+              int num_threads,
+              DescribedCloud* cloud) {
+  cloud->sensor = AssumeSensor(points, up);
+  cloud->tree = std::make_shared<const KdTree>(points);
+  const Neighborhoods neighborhoods =
+      FindNeighborhoods(*cloud->tree, options.fpfh_radius, num_threads);
+  cloud->normals = EstimateNormals(points,
+                                   neighborhoods,
+                                   options.normal_radius,
+                                   cloud->sensor.place,
+                                   num_threads);
+  return ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
+}
+
+}  // namespace
+
+bool FrontEndOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(voxel_size > 0.0 && std::isfinite(voxel_size))) {
+    problem << "voxel_size = " << voxel_size << ", must be > 0 and finite";
+  } else if (!(normal_radius > 0.0 && std::isfinite(normal_radius))) {
+    problem << "normal_radius = " << normal_radius
+            << ", must be > 0 and finite";
+  } else if (!(fpfh_radius >= normal_radius && std::isfinite(fpfh_radius))) {
+    problem << "fpfh_radius = " << fpfh_radius
+            << ", must be >= normal_radius = " << normal_radius;
+  } else {
+    return tuple.IsValid(error);
+  }
+  *error = problem.str();
+  return false;
+}
+
+MatchedClouds MatchClouds(
+    const PointCloud& source,
+    const PointCloud& target,
+    const Eigen::Vector3d& source_up,
+    const Eigen::Vector3d& target_up,
+    const FrontEndOptions& options,
+    std::uint64_t seed,
+    int num_threads,
+    const std::function<void(const StageTime&)>& progress) {
+  MatchedClouds clouds;
+  if (source.points.cols() == 0 || target.points.cols() == 0) {
+    clouds.error = source.points.cols() == 0 ? "the source has no points"
+                                             : "the target has no points";
+    return clouds;
+  }
+
+  Stopwatch stopwatch;
+  const auto finish_stage = [&](const char* stage) {
+    clouds.stage_times.push_back({stage, stopwatch.Lap()});
+    if (progress) progress(clouds.stage_times.back());
+  };
+
+  const auto source_voxels =
+      SampleVoxels(source.points, options.voxel_size, &clouds.error);
+  if (!source_voxels) {
+    clouds.error = "source: " + clouds.error;
+    return clouds;
+  }
+  const auto target_voxels =
+      SampleVoxels(target.points, options.voxel_size, &clouds.error);
+  if (!target_voxels) {
+    clouds.error = "target: " + clouds.error;
+    return clouds;
+  }
+  finish_stage("voxels");
+
+  const Fpfh source_fpfh =
+      Describe(*source_voxels, source_up, options, num_threads, &clouds.source);
+  const Fpfh target_fpfh =
+      Describe(*target_voxels, target_up, options, num_threads, &clouds.target);
+  finish_stage("features");
+
+  std::vector<Match> matches =
+      MatchMutualNearest(source_fpfh, target_fpfh, num_threads);
+  clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
+  if (options.tuple_test) {
+    TupleTestOptions tuple = options.tuple;
+    tuple.seed = seed;
+    matches = FilterByTupleTest(matches, *source_voxels, *target_voxels, tuple);
+  }
+  const auto num_matches = static_cast<Eigen::Index>(matches.size());
+  clouds.matched_source.resize(3, num_matches);
+  clouds.matched_target.resize(3, num_matches);
+  for (Eigen::Index k = 0; k < num_matches; ++k) {
+    const Match& match = matches[static_cast<std::size_t>(k)];
+    clouds.matched_source.col(k) = source_voxels->col(match.source);
+    clouds.matched_target.col(k) = target_voxels->col(match.target);
+  }
+  finish_stage("matching");
+  return clouds;
+}
+
+}  // namespace quatro
