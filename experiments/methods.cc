@@ -105,14 +105,12 @@ PoseSolver MakeOpen3dRansac(const QuatroOptions& options) {
 }
 #endif
 
-RegistrationSummary RegisterCoarseToFine(const PointCloud& source,
-                                         const PointCloud& target,
-                                         const Rigid3&,
-                                         const RegistrationOptions& options) {
+RegistrationSummary RefineQuatro(const MatchedClouds& matched,
+                                 const RegistrationOptions& options) {
   RegistrationOptions c2f = options;
   c2f.solver = MakeQuatro(options.quatro);
   c2f.refinement.method = RefinementMethod::kGicp;
-  return Register(source, target, c2f);
+  return RegisterMatched(matched, c2f);
 }
 
 template <RefinementMethod method>
@@ -145,7 +143,8 @@ RegistrationSummary RegisterByPeer(const PointCloud& source,
 
 enum class Ins { kRefused, kTaken, kNeeded };
 
-// From matches, `make`, or from clouds, `register_clouds`, or else an odometry
+// From matches, `make`, from clouds with matches, `register_matched`, or
+// without, `register_clouds`, or else an odometry
 // (experiments/odometry/odometry_methods.h).
 struct Method {
   const char* name;
@@ -157,8 +156,12 @@ struct Method {
                                          const Rigid3& target_from_source_guess,
                                          const RegistrationOptions& options) =
       nullptr;
+  RegistrationSummary (*register_matched)(const MatchedClouds& matched,
+                                          const RegistrationOptions& options) =
+      nullptr;
 
-  bool IsOdometry() const { return !make && !register_clouds; }
+  bool WorksOnClouds() const { return register_clouds || register_matched; }
+  bool IsOdometry() const { return !make && !WorksOnClouds(); }
 };
 
 constexpr Method kMethods[] = {
@@ -202,7 +205,8 @@ constexpr Method kMethods[] = {
      "clouds: quatro, then G-ICP from its pose",
      nullptr,
      Ins::kRefused,
-     RegisterCoarseToFine},
+     nullptr,
+     RefineQuatro},
     {"icp",
      "clouds: point to point from no motion",
      nullptr,
@@ -273,7 +277,7 @@ std::vector<std::string> MethodNames() {
 std::vector<std::string> CloudMethodNames() {
   std::vector<std::string> names;
   for (const Method& method : kMethods) {
-    if (method.register_clouds) names.emplace_back(method.name);
+    if (method.WorksOnClouds()) names.emplace_back(method.name);
   }
   return names;
 }
@@ -353,11 +357,50 @@ PoseSolver MakeSolver(const std::string& name,
 
 CloudSolver FindCloudSolver(const std::string& name) {
   for (const Method& method : kMethods) {
-    if (name == method.name && method.register_clouds) {
-      return method.register_clouds;
-    }
+    if (name != method.name) continue;
+    if (!method.register_matched) return method.register_clouds;
+    return [matched = method.register_matched](
+               const PointCloud& source,
+               const PointCloud& target,
+               const Rigid3&,
+               const RegistrationOptions& options) {
+      return matched(MatchClouds(source, target, options), options);
+    };
   }
   return nullptr;
+}
+
+PairSolver FindPairSolver(const std::string& name, std::string* error) {
+  for (const Method& method : kMethods) {
+    if (name != method.name || method.IsOdometry()) continue;
+    return [method](const PointCloud& source,
+                    const PointCloud& target,
+                    const MatchedClouds& matched,
+                    const RegistrationOptions& options) {
+      if (method.register_matched) {
+        return method.register_matched(matched, options);
+      }
+      if (method.register_clouds) {
+        return method.register_clouds(source, target, Rigid3(), options);
+      }
+      QuatroOptions quatro = options.quatro;
+      quatro.seed = options.seed;
+      quatro.num_threads = options.num_threads;
+      RegistrationOptions solved = options;
+      solved.solver = method.make(quatro);
+      return RegisterMatched(matched, solved);
+    };
+  }
+  // Says what is wrong with the name.
+  MakeSolver(name, QuatroOptions(), error);
+  return nullptr;
+}
+
+bool NeedsIns(const std::string& name) {
+  for (const Method& method : kMethods) {
+    if (name == method.name) return method.ins == Ins::kNeeded;
+  }
+  return false;
 }
 
 bool ParseRefinement(const std::string& text,

@@ -60,6 +60,21 @@ using CloudSolver =
 // The method that works on clouds; empty if there is none of this name.
 CloudSolver FindCloudSolver(const std::string& name);
 
+// Any method but an odometry, on two clouds and, where it works on matches, the
+// matches of the front end: so that several methods share them. The solver of
+// the options is replaced.
+using PairSolver =
+    std::function<RegistrationSummary(const PointCloud& source,
+                                      const PointCloud& target,
+                                      const MatchedClouds& matched,
+                                      const RegistrationOptions& options)>;
+
+// Empty, with *error set, for a name that is not known and for an odometry.
+PairSolver FindPairSolver(const std::string& name, std::string* error);
+
+// Whether the method can't do without an INS.
+bool NeedsIns(const std::string& name);
+
 // Sets *method by a flag's text: "none", "icp", "gicp" or "vgicp". For any
 // other text returns false and sets *error.
 bool ParseRefinement(const std::string& text,

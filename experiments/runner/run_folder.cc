@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/runner/run_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "features/file.h"
+
+namespace quatro {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string WhyNot(const std::string& path) {
+  return path + ": " + std::strerror(errno);
+}
+
+// All of the bytes at an offset, or false with errno set.
+bool WriteAt(int file, std::string_view bytes, std::uint64_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t written =
+        pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    offset += static_cast<std::uint64_t>(written);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::unique_ptr<RunFolder> RunFolder::Open(
+    const std::string& path,
+    const std::vector<std::string>& methods,
+    std::string* error) {
+  std::error_code status;
+  if (fs::exists(path, status) && !fs::is_directory(path, status)) {
+    *error = path + ": is not a folder";
+    return nullptr;
+  }
+  if (fs::is_directory(path, status) && !fs::is_empty(path, status) &&
+      !fs::exists(fs::path(path) / "run.lock", status)) {
+    *error = path + ": holds other files, must be new, empty or a run's folder";
+    return nullptr;
+  }
+  fs::create_directories(path, status);
+  if (status) {
+    *error = path + ": " + status.message();
+    return nullptr;
+  }
+
+  std::unique_ptr<RunFolder> folder(new RunFolder);
+  folder->path_ = path;
+  const std::string lock = path + "/run.lock";
+  folder->lock_ = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (folder->lock_ < 0) {
+    *error = WhyNot(lock);
+    return nullptr;
+  }
+  if (flock(folder->lock_, LOCK_EX | LOCK_NB) != 0) {
+    *error = errno == EWOULDBLOCK
+                 ? path +
+                       ": another process works in this folder; wait for it "
+                       "or stop it"
+                 : WhyNot(lock);
+    return nullptr;
+  }
+  const std::string rows = path + "/rows.csv";
+  folder->file_ = open(rows.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (folder->file_ < 0) {
+    *error = WhyNot(rows);
+    return nullptr;
+  }
+  if (!folder->ReadRows(methods, error)) return nullptr;
+  return folder;
+}
+
+RunFolder::~RunFolder() {
+  if (file_ >= 0) close(file_);
+  if (lock_ >= 0) close(lock_);  // Which lets go of it.
+}
+
+bool RunFolder::ReadRows(const std::vector<std::string>& methods,
+                         std::string* error) {
+  const std::string path = path_ + "/rows.csv";
+  const std::optional<std::string> text = ReadWholeFile(path, error);
+  if (!text) return false;
+  const std::string header = ResultCsvHeader() + "\n";
+  if (text->size() < header.size() && header.starts_with(*text)) {
+    if (!WriteAt(file_, header, 0) || fdatasync(file_) != 0) {
+      *error = WhyNot(path);
+      return false;
+    }
+    end_ = header.size();
+    return true;
+  }
+  if (!text->starts_with(header)) {
+    *error = path + ": line 1 is not the line of names of this version";
+    return false;
+  }
+
+  // What a kill left half done is at the end.
+  end_ = header.size();
+  std::uint64_t at = end_;
+  int line_number = 2;
+  std::size_t next_method = 0;
+  std::string pair;
+  while (at < text->size()) {
+    const std::size_t line_end = text->find('\n', at);
+    if (line_end == std::string::npos) break;
+    const auto result = ParseResultCsv(text->substr(at, line_end - at), error);
+    if (!result || result->method != methods[next_method] ||
+        (next_method > 0 && result->pair != pair)) {
+      if (result) *error = "is not of the methods or pairs of this run";
+      *error = path + ": line " + std::to_string(line_number) + ": " + *error;
+      return false;
+    }
+    pair = result->pair;
+    at = line_end + 1;
+    ++line_number;
+    if (++next_method < methods.size()) continue;
+    rows_[pair] = {end_, at - end_};
+    end_ = at;
+    next_method = 0;
+  }
+  if (end_ < text->size() && ftruncate(file_, static_cast<off_t>(end_)) != 0) {
+    *error = WhyNot(path);
+    return false;
+  }
+  return true;
+}
+
+bool RunFolder::Append(const std::vector<PairResult>& results,
+                       const std::string& note,
+                       std::string* error) {
+  if (!note.empty()) {
+    const std::string path = path_ + "/notes.txt";
+    const int file =
+        open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    const std::string line = results.front().pair + ": " + note + "\n";
+    const bool is_written =
+        file >= 0 && write(file, line.data(), line.size()) ==
+                         static_cast<ssize_t>(line.size());
+    if (!is_written) *error = WhyNot(path);
+    if (file >= 0) close(file);
+    if (!is_written) return false;
+  }
+  std::string text;
+  for (const PairResult& result : results)
+    text += FormatResultCsv(result) + "\n";
+  if (!WriteAt(file_, text, end_) || fdatasync(file_) != 0) {
+    *error = WhyNot(path_ + "/rows.csv");
+    // What is half written would be taken off by the next start as well.
+    [[maybe_unused]] const int ignored =
+        ftruncate(file_, static_cast<off_t>(end_));
+    return false;
+  }
+  rows_[results.front().pair] = {end_, text.size()};
+  end_ += text.size();
+  return true;
+}
+
+bool RunFolder::Finish(const std::vector<std::string>& pairs,
+                       std::string* error) const {
+  const auto text = ReadWholeFile(path_ + "/rows.csv", error);
+  if (!text) return false;
+  std::string ordered = ResultCsvHeader() + "\n";
+  ordered.reserve(text->size());
+  for (const std::string& pair : pairs) {
+    const auto row = rows_.find(pair);
+    if (row == rows_.end()) {
+      *error = path_ + ": pair " + pair + " is not done";
+      return false;
+    }
+    ordered.append(*text, row->second.begin, row->second.size);
+  }
+  return WriteFileAtomically(path_ + "/results.csv", ordered, error);
+}
+
+}  // namespace quatro

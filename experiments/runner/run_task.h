@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// One pair of scans, read once, described and matched once, by each of several
+// methods.
+
+#ifndef QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
+#define QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/pair_result.h"
+#include "experiments/runner/pair_task.h"
+#include "robust/ins.h"
+#include "robust/registration.h"
+
+namespace quatro {
+
+struct RunMethods {
+  std::vector<std::string> names;  // Of experiments/methods.h; no odometry.
+
+  // For all of them; the solver is replaced.
+  RegistrationOptions options;
+
+  // Take the options from each pair of clouds (robust/presets.h), but for
+  // threads and seed, which stay.
+  bool use_auto_options = false;
+
+  // How a method that needs an INS uses the pair's. A pair without one is
+  // insufficient for it.
+  InsMode ins_mode = InsMode::kFused;
+
+  // Returns false and says why in *error for a name that is not known or comes
+  // twice, or an option out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// A result each, in the order of the names. If a scan can't be read or can't be
+// used, all are unreadable and *note says why; it stays empty otherwise.
+std::vector<PairResult> RunTask(const PairTask& task,
+                                const RunMethods& methods,
+                                std::string* note);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
