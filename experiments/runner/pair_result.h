@@ -67,18 +67,21 @@ struct PairResult {
 
 // A line of CSV each, under a line of names: pair, set, bin, method, status,
 // distance_m, true_yaw_deg, true_tilt_deg, rotation_error_deg, yaw_error_deg,
-// translation_error_m, probability, matches, consistent, inliers, tx, ty, tz,
-// qx, qy, qz, qw, total_ms, stages_ms ("voxels=1.5;features=60"). What is not
-// known is empty. Numbers are written so that reading them gives the same ones
-// (angles but for their last digit).
+// translation_error_m, probability, matches, consistent, inliers, m00, m01,
+// m02, m03, m10, ... m23 (the rows of the pose's matrix), total_ms, stages_ms
+// ("voxels=1.5;features=60"). What is not known is empty. Numbers are written
+// so that reading them gives the same ones bit for bit; they must be finite.
+// Names may hold commas and quotes, not line breaks.
 std::string ResultCsvHeader();
 std::string FormatResultCsv(const PairResult& result);
 
 // Nullopt with *error set, which names the column, if it is not such a line.
+// Neither has the line's end.
 std::optional<PairResult> ParseResultCsv(const std::string& line,
                                          std::string* error);
 
-// All of a file. Nullopt with *error set, which names file, line and column.
+// All of a file, which starts with the line of names. Nullopt with *error set,
+// which names file, line and column; also if the last line is cut off.
 std::optional<std::vector<PairResult>> ReadResultCsv(const std::string& path,
                                                      std::string* error);
 
