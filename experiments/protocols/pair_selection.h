@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What a protocol or a list of pairs makes: the tasks in order, and what was
+// left out or is missing, a line each, for people.
+
+#ifndef QUATRO_EXPERIMENTS_PROTOCOLS_PAIR_SELECTION_H_
+#define QUATRO_EXPERIMENTS_PROTOCOLS_PAIR_SELECTION_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/pair_task.h"
+#include "features/random.h"
+
+namespace quatro {
+
+struct PairSelection {
+  std::vector<PairTask> tasks;
+
+  // Pairs for which a pose is missing, so that they are no tasks.
+  int num_without_pose = 0;
+
+  // Files of scans that are not there, each once, though many tasks may name
+  // it; those tasks stay.
+  int num_missing_scans = 0;
+
+  std::vector<std::string> notes;
+};
+
+// `max` of 0 .. n - 1 (all if max is 0 or n is not more), as even as can be:
+//
+//   floor((k + u) n / max),  k = 0 .. max - 1,  u uniform in [0, 1).      (1)
+inline std::vector<std::size_t> DrawEvenly(std::size_t n,
+                                           std::size_t max,
+                                           Random& random) {
+  const std::size_t num = max == 0 || n < max ? n : max;
+  const double offset = random.Uniform();
+  std::vector<std::size_t> drawn;
+  for (std::size_t k = 0; k < num; ++k) {
+    drawn.push_back(
+        num == n ? k
+                 : static_cast<std::size_t>((static_cast<double>(k) + offset) *
+                                            static_cast<double>(n) /
+                                            static_cast<double>(num)));
+  }
+  return drawn;
+}
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_PROTOCOLS_PAIR_SELECTION_H_
