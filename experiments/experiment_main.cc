@@ -4,75 +4,259 @@
 #include <gflags/gflags.h>
 
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "experiments/datasets/open_dataset.h"
+#include "experiments/ins_flags.h"
+#include "experiments/methods.h"
+#include "experiments/number_text.h"
 #include "experiments/outputs.h"
 #include "experiments/program.h"
 #include "experiments/progress_line.h"
+#include "experiments/protocols/protocols.h"
+#include "experiments/runner/pair_experiment.h"
+#include "experiments/runner/stop_signal.h"
 #include "experiments/synthetic_protocols.h"
+#include "robust/presets.h"
 
 DEFINE_string(protocol,
               "",
-              "tims (yaw from differences, 95-99 % outliers), degeneracy (1-5 "
-              "true matches), quasi_inliers (right in xy, wrong in z), sizes "
-              "(a thousand to a million matches), slopes (tilts of 2-15 deg "
-              "with an INS) or surrogates (numbers for draw_surrogates.py). "
-              "Required");
-DEFINE_int32(seeds, 20, "Problems of each kind");
-DEFINE_int64(max_matches, 1000000, "The largest problem of protocol sizes");
-DEFINE_int32(threads, 0, "0: one per core. Results do not depend on it");
-DEFINE_string(output, "", "CSV file for the table as well");
+              "On scans: loop, interval, yaw, timing or pairs. On matched "
+              "points: tims (yaw from differences, 95-99 % outliers), "
+              "degeneracy (1-5 true matches), quasi_inliers (right in xy, "
+              "wrong in z), sizes (a thousand to a million matches), slopes "
+              "(tilts of 2-15 deg with an INS) or surrogates (numbers for "
+              "draw_surrogates.py). Required");
+DEFINE_string(output,
+              "",
+              "On scans: folder of the run, new or to go on with, required. "
+              "On matched points: CSV file for the table as well");
+DEFINE_string(methods, "quatro", "On scans: a,b,c; --list_methods names them");
+DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_string(data, "", "Folder of a drive, or of a data set with drives");
+DEFINE_string(sequences, "", "Drives of the data set, 00,02; empty: all");
+DEFINE_string(poses, "", "File of true poses in place of the data set's own");
+DEFINE_string(pairs, "", "Of pairs: the list, see README");
+DEFINE_string(preset,
+              "kitti",
+              "Parameters of all methods: kitti, paper, reference, indoor, or "
+              "auto (from each pair of clouds)");
+DEFINE_string(ins_mode,
+              "fused",
+              "What quatro_ins makes of the INS: relative, leveled or fused");
+DEFINE_string(bins, "0-2,4-6,8-10", "Of loop and timing: distances [m]");
+DEFINE_int32(min_frame_gap, 100, "Of loop and timing: frames between visits");
+DEFINE_double(min_path, 50.0, "Of loop and timing: way between visits [m]");
+DEFINE_string(intervals, "1,3,5", "Of interval: frames apart; yaw: the last");
+DEFINE_double(yaw_step_deg, 30.0, "Of yaw: from one turn to the next [deg]");
+DEFINE_int32(max_pairs,
+             100,
+             "Of each drive and each bin or interval; 0: all there are");
+DEFINE_uint64(seed, 1, "Of the choice of pairs and of the methods");
+DEFINE_string(shard, "1/1", "On scans: do part k of n alone, k/n");
+DEFINE_bool(merge, false, "On scans: put the parts in --output together");
+DEFINE_int32(seeds, 20, "On matched points: problems of each kind");
+DEFINE_int64(max_matches, 1000000, "Of sizes: the largest problem");
+DEFINE_int32(threads,
+             0,
+             "0: one per core. On scans so many pairs at a time; timing always "
+             "takes one. Results do not depend on it");
 
 namespace {
 
+using quatro::Fail;
+
+constexpr int kExitStopped = 3;
+
 constexpr char kUsage[] =
-    "compares estimators on families of problems with known answers.\n"
+    "compares methods on scans of a data set, or on problems with known "
+    "answers.\n"
     "\n"
+    "  quatro_experiment --protocol=loop --data=kitti --sequences=00,05\n"
+    "      --methods=quatro,teaser,ransac10k --output=loops\n"
     "  quatro_experiment --protocol=degeneracy\n"
     "\n"
-    "The table goes to standard output, progress to standard error. Exits "
-    "with\n"
-    "0; 2 if a flag or the output is wrong.";
+    "On scans, the folder gets results.csv, a line for each pair and method,\n"
+    "and tables. A run that was stopped, by Ctrl-C or otherwise, is gone on\n"
+    "with by the same command. Progress goes to standard error.\n"
+    "Exits with 0; 2 if a flag or a file is wrong; 3 if it was stopped.";
+
+std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
+  const quatro::Progress progress = quatro::ProgressLine("problems");
+  if (protocol == "tims") {
+    return quatro::RunTimProtocol(FLAGS_seeds, progress);
+  }
+  if (protocol == "degeneracy") {
+    return quatro::RunDegeneracyProtocol(FLAGS_seeds, progress);
+  }
+  if (protocol == "quasi_inliers") {
+    return quatro::RunQuasiInlierProtocol(FLAGS_seeds, progress);
+  }
+  if (protocol == "sizes") {
+    return quatro::RunSizeProtocol(
+        FLAGS_seeds, FLAGS_max_matches, FLAGS_threads, progress);
+  }
+  if (protocol == "slopes") {
+    return quatro::RunSlopeProtocol(FLAGS_seeds, progress);
+  }
+  if (protocol == "surrogates") return quatro::TabulateSurrogates();
+  return std::nullopt;
+}
+
+std::vector<std::string> SplitNames(const std::string& text) {
+  std::vector<std::string> names;
+  for (const std::string_view name : quatro::SplitFields(text, ",")) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+std::optional<quatro::RunMethods> MethodsOfFlags(std::string* error) {
+  quatro::RunMethods methods;
+  methods.names = SplitNames(FLAGS_methods);
+  methods.use_auto_options = FLAGS_preset == "auto";
+  const auto preset =
+      quatro::MakePreset(methods.use_auto_options ? "kitti" : FLAGS_preset);
+  if (!preset) {
+    *error = "--preset=" + FLAGS_preset + ", must be auto";
+    for (const std::string& name : quatro::PresetNames()) *error += ", " + name;
+    return std::nullopt;
+  }
+  methods.options = *preset;
+  methods.options.seed = FLAGS_seed;
+  methods.options.num_threads = 1;
+  bool is_mode = false;
+  for (const quatro::InsMode mode : {quatro::InsMode::kRelative,
+                                     quatro::InsMode::kLeveled,
+                                     quatro::InsMode::kFused}) {
+    if (FLAGS_ins_mode != quatro::InsModeName(mode)) continue;
+    methods.ins_mode = mode;
+    is_mode = true;
+  }
+  if (!is_mode) {
+    *error =
+        "--ins_mode=" + FLAGS_ins_mode + ", must be relative, leveled or fused";
+    return std::nullopt;
+  }
+  if (!methods.IsValid(error)) {
+    *error = "--methods: " + *error;
+    return std::nullopt;
+  }
+  return methods;
+}
+
+std::optional<quatro::PairSelection> TasksOfFlags(std::string* error) {
+  quatro::ProtocolOptions protocol;
+  protocol.name = FLAGS_protocol;
+  const auto bins = quatro::ParseBins(FLAGS_bins, error);
+  if (!bins) {
+    *error = "--bins: " + *error;
+    return std::nullopt;
+  }
+  protocol.bins = *bins;
+  protocol.min_frame_gap = FLAGS_min_frame_gap;
+  protocol.min_path = FLAGS_min_path;
+  protocol.intervals.clear();
+  for (const std::string& text : SplitNames(FLAGS_intervals)) {
+    const auto number = quatro::ParseFiniteNumber(text);
+    if (!number || *number < 1.0 || *number != static_cast<int>(*number)) {
+      *error = "--intervals: '" + text + "' is no number of frames";
+      return std::nullopt;
+    }
+    protocol.intervals.push_back(static_cast<int>(*number));
+  }
+  protocol.yaw_step_deg = FLAGS_yaw_step_deg;
+  protocol.max_pairs = FLAGS_max_pairs;
+  protocol.seed = FLAGS_seed;
+  if (!protocol.IsValid(error)) return std::nullopt;
+
+  const auto drives = quatro::OpenDataset(
+      {FLAGS_data, SplitNames(FLAGS_sequences), FLAGS_poses}, error);
+  if (!drives) return std::nullopt;
+  return quatro::SelectPairs(*drives, protocol, error);
+}
+
+int RunOnScans() {
+  std::string error;
+  if (FLAGS_output.empty())
+    return Fail("--output is empty, must name a folder");
+  const auto methods = MethodsOfFlags(&error);
+  if (!methods) return Fail(error);
+  const auto shard = quatro::ParseShard(FLAGS_shard, &error);
+  if (!shard) return Fail("--shard: " + error);
+  const auto selection = TasksOfFlags(&error);
+  if (!selection) return Fail(error);
+  for (const std::string& note : selection->notes) {
+    std::fprintf(stderr, "%s\n", note.c_str());
+  }
+  if (selection->tasks.empty()) {
+    return Fail("there are no pairs; see the flags that choose them");
+  }
+  quatro::PairExperiment experiment;
+  experiment.tasks = selection->tasks;
+  experiment.methods = *methods;
+  experiment.output = FLAGS_output;
+  experiment.shard = *shard;
+  if (FLAGS_merge) {
+    if (!quatro::MergeShards(experiment, &error)) return Fail(error);
+    return quatro::kExitDone;
+  }
+
+  quatro::ListenForStop();
+  quatro::RunControl control;
+  control.num_workers = FLAGS_protocol == "timing" ? 1 : FLAGS_threads;
+  control.should_stop = quatro::WasAskedToStop;
+  control.progress = quatro::ProgressLine("pairs");
+  switch (quatro::RunPairExperiment(experiment, control, &error)) {
+    case quatro::RunEnd::kDone:
+      break;
+    case quatro::RunEnd::kStopped:
+      std::fprintf(stderr, "\nstopped; the same command goes on from here\n");
+      return kExitStopped;
+    case quatro::RunEnd::kFailed:
+      return Fail(error);
+  }
+  return quatro::kExitDone;
+}
+
+bool IsOnScans() {
+  if (FLAGS_protocol == "pairs") return true;
+  for (const std::string& name : quatro::DriveProtocolNames()) {
+    if (FLAGS_protocol == name) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using quatro::Fail;
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "experiment_main", argc, argv)) {
     return *exit_code;
+  }
+  if (FLAGS_list_methods) {
+    std::fputs(quatro::DescribeMethods().c_str(), stdout);
+    return quatro::kExitDone;
   }
   std::string error;
   if (FLAGS_seeds < 1) return Fail("--seeds must be >= 1");
   if (FLAGS_max_matches < 1000) return Fail("--max_matches must be >= 1000");
   if (FLAGS_threads < 0) return Fail("--threads must be >= 0");
+  if (IsOnScans()) return RunOnScans();
   if (!FLAGS_output.empty() && !quatro::CanWrite(FLAGS_output, &error)) {
     return Fail(error);
   }
-
-  const quatro::Progress progress = quatro::ProgressLine("problems");
-  quatro::Table table;
-  if (FLAGS_protocol == "tims") {
-    table = quatro::RunTimProtocol(FLAGS_seeds, progress);
-  } else if (FLAGS_protocol == "degeneracy") {
-    table = quatro::RunDegeneracyProtocol(FLAGS_seeds, progress);
-  } else if (FLAGS_protocol == "quasi_inliers") {
-    table = quatro::RunQuasiInlierProtocol(FLAGS_seeds, progress);
-  } else if (FLAGS_protocol == "sizes") {
-    table = quatro::RunSizeProtocol(
-        FLAGS_seeds, FLAGS_max_matches, FLAGS_threads, progress);
-  } else if (FLAGS_protocol == "slopes") {
-    table = quatro::RunSlopeProtocol(FLAGS_seeds, progress);
-  } else if (FLAGS_protocol == "surrogates") {
-    table = quatro::TabulateSurrogates();
-  } else {
+  const auto table = RunSynthetic(FLAGS_protocol);
+  if (!table) {
     return Fail("--protocol=" + FLAGS_protocol +
-                ", must be tims, degeneracy, quasi_inliers, sizes, slopes "
-                "or surrogates");
+                ", must be loop, interval, yaw, timing, pairs, tims, "
+                "degeneracy, quasi_inliers, sizes, slopes or surrogates");
   }
-  std::fputs(quatro::FormatTable(table).c_str(), stdout);
+  std::fputs(quatro::FormatTable(*table).c_str(), stdout);
   if (!FLAGS_output.empty() &&
-      !quatro::WriteOutputs({{FLAGS_output, quatro::FormatCsv(table)}},
+      !quatro::WriteOutputs({{FLAGS_output, quatro::FormatCsv(*table)}},
                             &error)) {
     return Fail(error);
   }

@@ -22,13 +22,6 @@ constexpr NamedMode kModes[] = {{"none", InsMode::kNone},
                                 {"leveled", InsMode::kLeveled},
                                 {"fused", InsMode::kFused}};
 
-const char* Name(InsMode mode) {
-  for (const NamedMode& named : kModes) {
-    if (named.mode == mode) return named.name;
-  }
-  return "none";
-}
-
 // "1,2,3" and nothing after it.
 std::optional<Eigen::Vector3d> ParseThree(const std::string& text) {
   Eigen::Vector3d three;
@@ -75,6 +68,13 @@ Json InDegrees(const Attitude& attitude) {
 
 }  // namespace
 
+const char* InsModeName(InsMode mode) {
+  for (const NamedMode& named : kModes) {
+    if (named.mode == mode) return named.name;
+  }
+  return "none";
+}
+
 std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
                                         std::string* error) {
   InsOptions ins;
@@ -120,7 +120,7 @@ std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
 }
 
 Json DescribeOptions(const InsOptions& ins) {
-  return {{"ins_mode", Name(ins.mode)},
+  return {{"ins_mode", InsModeName(ins.mode)},
           {"source_rpy_deg", InDegrees(ins.source_attitude)},
           {"target_rpy_deg", InDegrees(ins.target_attitude)},
           {"ins_std_deg", ins.attitude_std / kDegree},

@@ -23,6 +23,9 @@ struct InsFlags {
   std::string gravity = "0,0,1";  // What is up, of any length but 0.
 };
 
+// "none", "relative", "leveled" or "fused".
+const char* InsModeName(InsMode mode);
+
 // Nullopt, with *error set to what is wrong with which flag. Both attitudes
 // must be given if the mode needs them, and neither if it does not.
 std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,

@@ -38,6 +38,18 @@ bool WriteAt(int file, std::string_view bytes, std::uint64_t offset) {
   return true;
 }
 
+// Whether there is nothing in the folder but what a run leaves: its lock at
+// least, or parts of it.
+bool MayBeARun(const std::string& folder) {
+  std::error_code status;
+  if (fs::exists(fs::path(folder) / "run.lock", status)) return true;
+  for (fs::directory_iterator it(folder, status), end; !status && it != end;
+       it.increment(status)) {
+    if (!it->path().filename().string().starts_with("shard_")) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::unique_ptr<RunFolder> RunFolder::Open(
@@ -49,8 +61,7 @@ std::unique_ptr<RunFolder> RunFolder::Open(
     *error = path + ": is not a folder";
     return nullptr;
   }
-  if (fs::is_directory(path, status) && !fs::is_empty(path, status) &&
-      !fs::exists(fs::path(path) / "run.lock", status)) {
+  if (fs::is_directory(path, status) && !MayBeARun(path)) {
     *error = path + ": holds other files, must be new, empty or a run's folder";
     return nullptr;
   }

@@ -6,6 +6,7 @@
 //   rows.csv        the pairs that are done, as they were finished, each with
 //                   a line a method; what is done is never written again
 //   results.csv     the same in the order of the tasks, once all are done
+//   shard_1_of_2/   folders of parts, if it was shared out
 //   notes.txt       what was wrong with scans that can't be used
 //   run.lock        held by the process that works here
 //

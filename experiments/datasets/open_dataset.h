@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The drives of a folder, whatever its layout; which one it is, its files tell.
+
+#ifndef QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
+#define QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/datasets/sequence_data.h"
+
+namespace quatro {
+
+struct DatasetOptions {
+  std::string folder;                  // Of one drive, or of several.
+  std::vector<std::string> sequences;  // Their names; empty: all there are.
+
+  // File of true poses of the one drive; empty: the data set's own.
+  std::string poses;
+};
+
+// Nullopt with one line in *error if there are none, or one can't be read.
+std::optional<std::vector<SequenceData>> OpenDataset(
+    const DatasetOptions& options, std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_

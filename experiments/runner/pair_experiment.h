@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A whole experiment on pairs: tasks by methods, in one folder or shared out,
+//
+//   OUTPUT/                 the run's folder (experiments/runner/run_folder.h)
+//   OUTPUT/shard_2_of_5/    that of a part, for --merge to put together
+//
+// each with the manifest of what makes its results.
+
+#ifndef QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
+#define QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
+
+#include <string>
+#include <vector>
+
+#include "experiments/runner/pair_task.h"
+#include "experiments/runner/run_task.h"
+#include "experiments/runner/runner.h"
+
+namespace quatro {
+
+struct PairExperiment {
+  std::vector<PairTask> tasks;
+  RunMethods methods;
+  std::string output;
+  Shard shard;
+
+  // Of all the flags that results depend on, for the manifest.
+  std::string flags;
+};
+
+// Runs, or goes on with, the experiment's part.
+RunEnd RunPairExperiment(const PairExperiment& experiment,
+                         const RunControl& control,
+                         std::string* error);
+
+// Puts the parts that are in the output together, as if it had been run at
+// once. Returns false and sets *error, which names the part or the first pair
+// that is missing; what is there is kept.
+bool MergeShards(const PairExperiment& experiment, std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
