@@ -12,7 +12,9 @@
 
 #include "experiments/building.h"
 #include "experiments/city.h"
+#include "experiments/kitti_layout.h"
 #include "experiments/lidar.h"
+#include "experiments/naver_layout.h"
 #include "experiments/road.h"
 #include "experiments/sensors.h"
 #include "experiments/street_objects.h"
@@ -279,7 +281,7 @@ InsReading RatesAt(const std::vector<Rigid3>& poses, size_t i) {
 
 bool WriteFrames(const DriveOptions& options,
                  const std::function<void(int, int)>& progress,
-                 KittiWriter& writer,
+                 SequenceWriter& writer,
                  std::string* error) {
   const Drive drive = MakeDrive(options);
   const auto lidar = MakeSensor(
@@ -352,6 +354,8 @@ bool DriveOptions::IsValid(std::string* error) const {
     problem << "ins_sigma = " << ins_sigma << ", must be in [0, 0.2]";
   } else if (!is_angle(ins_bias_sigma)) {
     problem << "ins_bias_sigma = " << ins_bias_sigma << ", must be in [0, 0.2]";
+  } else if (layout != "kitti" && layout != "naver") {
+    problem << "layout = '" << layout << "', must be kitti or naver";
   } else if (num_threads < 0) {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   }
@@ -394,7 +398,12 @@ bool SimulateDrive(const DriveOptions& options,
                    const std::function<void(int, int)>& progress,
                    std::string* error) {
   if (!options.IsValid(error)) return false;
-  const auto writer = KittiWriter::Create(output_dir, options.overwrite, error);
+  std::unique_ptr<SequenceWriter> writer;
+  if (options.layout == "naver") {
+    writer = NaverWriter::Create(output_dir, options.overwrite, error);
+  } else {
+    writer = KittiWriter::Create(output_dir, options.overwrite, error);
+  }
   return writer != nullptr && WriteFrames(options, progress, *writer, error) &&
          writer->Finish(error);
 }

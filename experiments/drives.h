@@ -9,8 +9,8 @@
 //
 // They are simulated, and as good as the simulator
 // (experiments/compare_kitti.py says how good); what they share with their
-// namesakes is the shape of the way. Written in the layout of kitti_layout.h,
-// with the readings of an INS.
+// namesakes is the shape of the way. Written in the layout of kitti_layout.h
+// or naver_layout.h, with the readings of an INS.
 
 #ifndef QUATRO_EXPERIMENTS_DRIVES_H_
 #define QUATRO_EXPERIMENTS_DRIVES_H_
@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/kitti_layout.h"
 #include "experiments/scene.h"
+#include "experiments/sequence_writer.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -47,7 +47,8 @@ struct DriveOptions {
   double ins_sigma = 0.0009;
   double ins_bias_sigma = 0.005;
 
-  int num_threads = 1;  // 0: as many as the machine has.
+  std::string layout = "kitti";  // Or naver.
+  int num_threads = 1;           // 0: as many as the machine has.
   bool overwrite = false;
 
   bool IsValid(std::string* error) const;

@@ -3,14 +3,12 @@
 
 #include "experiments/kitti_layout.h"
 
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
-#include <set>
 #include <system_error>
+#include <utility>
 
 #include "features/cloud_io.h"
 #include "features/file.h"
@@ -50,54 +48,6 @@ std::string FormatCalibration() {
     text += "P" + std::to_string(camera) + ": " + FormatRows(projection);
   }
   return text + "Tr: " + FormatRigid3(Cam0FromSensor());
-}
-
-// Nothing there, an empty folder or, with `overwrite`, a sequence.
-bool MayReplace(const fs::path& output, bool overwrite, std::string* error) {
-  const std::set<std::string> known = {
-      "velodyne", "poses.txt", "calib.txt", "times.txt", "oxts"};
-  std::error_code code;
-  if (!fs::exists(output, code)) return true;
-  if (!fs::is_directory(output, code)) {
-    *error = output.string() + ": exists and is not a folder";
-    return false;
-  }
-  for (fs::directory_iterator entry(output, code), end; !code && entry != end;
-       entry.increment(code)) {
-    const std::string name = entry->path().filename().string();
-    if (!overwrite) {
-      *error = output.string() + ": folder is not empty";
-      return false;
-    }
-    if (!known.contains(name)) {
-      *error = output.string() + ": holds '" + name +
-               "', which no sequence does; not overwritten";
-      return false;
-    }
-  }
-  if (code) *error = output.string() + ": " + code.message();
-  return !code;
-}
-
-// Puts the complete folder in the place of what may be there.
-bool MoveInto(const fs::path& folder,
-              const fs::path& output,
-              std::string* error) {
-  const fs::path old = folder.string() + ".old";
-  std::error_code code;
-  const bool replaces = fs::exists(output, code);
-  if (replaces) fs::rename(output, old, code);
-  if (!code) {
-    fs::rename(folder, output, code);
-    std::error_code ignored;
-    if (code && replaces) fs::rename(old, output, ignored);
-  }
-  if (code) {
-    *error = output.string() + ": " + code.message();
-    return false;
-  }
-  fs::remove_all(old, code);
-  return true;
 }
 
 }  // namespace
@@ -164,32 +114,17 @@ Rigid3 Cam0FromSensor() {
 std::unique_ptr<KittiWriter> KittiWriter::Create(const std::string& output_dir,
                                                  bool overwrite,
                                                  std::string* error) {
-  if (output_dir.empty()) {
-    *error = "output_dir is empty, must name a folder";
-    return nullptr;
-  }
+  auto folder = SequenceFolder::Create(output_dir, overwrite, error);
+  if (folder == nullptr) return nullptr;
   std::error_code code;
-  fs::path output = fs::weakly_canonical(fs::absolute(output_dir), code);
-  if (!code && !output.has_filename()) output = output.parent_path();
+  fs::create_directories(folder->path() / "velodyne", code);
   if (code) {
-    *error = output_dir + ": " + code.message();
+    *error = folder->path().string() + ": " + code.message();
     return nullptr;
   }
-  if (!MayReplace(output, overwrite, error)) return nullptr;
   std::unique_ptr<KittiWriter> writer(new KittiWriter);
-  writer->output_ = output;
-  writer->folder_ = output.string() + ".partial." + std::to_string(getpid());
-  fs::create_directories(writer->folder_ / "velodyne", code);
-  if (code) {
-    *error = writer->folder_.string() + ": " + code.message();
-    return nullptr;
-  }
+  writer->folder_ = std::move(folder);
   return writer;
-}
-
-KittiWriter::~KittiWriter() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
 }
 
 bool KittiWriter::Add(const PointCloud& cloud,
@@ -199,12 +134,13 @@ bool KittiWriter::Add(const PointCloud& cloud,
                       std::string* error) {
   char name[32];
   std::snprintf(name, sizeof(name), "%06d.bin", num_frames_);
-  if (!WriteCloud(cloud, folder_ / "velodyne" / name, error)) return false;
+  const fs::path& folder = folder_->path();
+  if (!WriteCloud(cloud, folder / "velodyne" / name, error)) return false;
   if (reading != nullptr) {
     std::error_code code;
-    fs::create_directories(folder_ / "oxts" / "data", code);
+    fs::create_directories(folder / "oxts" / "data", code);
     std::snprintf(name, sizeof(name), "%010d.txt", num_frames_);
-    if (!WriteFileAtomically((folder_ / "oxts" / "data" / name).string(),
+    if (!WriteFileAtomically((folder / "oxts" / "data" / name).string(),
                              FormatOxts(*reading),
                              error)) {
       return false;
@@ -222,11 +158,12 @@ bool KittiWriter::Add(const PointCloud& cloud,
 }
 
 bool KittiWriter::Finish(std::string* error) {
-  return WriteFileAtomically((folder_ / "poses.txt").string(), poses_, error) &&
+  const fs::path& folder = folder_->path();
+  return WriteFileAtomically((folder / "poses.txt").string(), poses_, error) &&
          WriteFileAtomically(
-             (folder_ / "calib.txt").string(), FormatCalibration(), error) &&
-         WriteFileAtomically((folder_ / "times.txt").string(), times_, error) &&
-         MoveInto(folder_, output_, error);
+             (folder / "calib.txt").string(), FormatCalibration(), error) &&
+         WriteFileAtomically((folder / "times.txt").string(), times_, error) &&
+         folder_->Finish(error);
 }
 
 }  // namespace quatro

@@ -16,26 +16,15 @@
 #ifndef QUATRO_EXPERIMENTS_KITTI_LAYOUT_H_
 #define QUATRO_EXPERIMENTS_KITTI_LAYOUT_H_
 
-#include <Eigen/Core>
-#include <filesystem>
 #include <memory>
 #include <string>
 
+#include "experiments/sequence_folder.h"
+#include "experiments/sequence_writer.h"
 #include "features/point_cloud.h"
-#include "solvers/gravity.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
-
-// What an INS tells, in a world with x to the east, y to the north and z up,
-// of a body with x ahead, y to the left and z up.
-struct InsReading {
-  Attitude attitude;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();      // [m], in the world.
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // [m/s], likewise.
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // [m/s^2], likewise.
-  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();     // [rad/s], of body.
-};
 
 // One line: lat lon alt [deg, deg, m] roll pitch yaw [rad] vn ve vf vl vu [m/s]
 // ax ay az af al au [m/s^2] wx wy wz wf wl wu [rad/s], two accuracies and five
@@ -46,32 +35,24 @@ std::string FormatOxts(const InsReading& reading);
 // Cam0 as it is mounted in simulated sequences: x right, y down, z forward.
 Rigid3 Cam0FromSensor();
 
-// Writes beside the folder and renames it when it is complete; what is not
-// finished is removed.
-class KittiWriter {
+class KittiWriter : public SequenceWriter {
  public:
-  // Returns a nullptr and sets *error if the folder holds anything (with
-  // `overwrite`: anything but a sequence), or if it can't be written.
+  // Returns a nullptr and sets *error if there can be no such folder.
   static std::unique_ptr<KittiWriter> Create(const std::string& output_dir,
                                              bool overwrite,
                                              std::string* error);
-  ~KittiWriter();
-  KittiWriter(const KittiWriter&) = delete;
-  KittiWriter& operator=(const KittiWriter&) = delete;
 
-  // The next frame. `reading` may be a nullptr, for all frames.
   bool Add(const PointCloud& cloud,
            const Rigid3& world_from_sensor,
            double time,
            const InsReading* reading,
-           std::string* error);
-
-  bool Finish(std::string* error);
+           std::string* error) override;
+  bool Finish(std::string* error) override;
 
  private:
   KittiWriter() = default;
 
-  std::filesystem::path output_, folder_;
+  std::unique_ptr<SequenceFolder> folder_;
   Rigid3 first_from_world_;
   int num_frames_ = 0;
   std::string poses_, times_;

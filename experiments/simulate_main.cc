@@ -45,6 +45,10 @@ DEFINE_string(drive,
 DEFINE_bool(sweep_motion,
             false,
             "Of drives: points as the moving sensor saw them, not corrected");
+DEFINE_string(layout,
+              "kitti",
+              "Of drives: kitti (velodyne/, poses.txt, oxts/) or naver "
+              "(sensors/, as NAVER LABS' data sets are)");
 DEFINE_int32(moving_cars, 15, "Of drives: other cars on the way");
 DEFINE_int32(pairs, 100, "Of pairs: how many");
 DEFINE_double(scale, 1.0, "Of calibration: that share of its 1500 pairs");
@@ -94,7 +98,8 @@ constexpr char kUsage[] =
     "  quatro_simulate --output=05 --protocol=drive --drive=05 --num_frames=0\n"
     "\n"
     "The same layout, and the INS in oxts/data/0000000000.txt ... as KITTI "
-    "raw.\n"
+    "raw;\n"
+    "with --layout=naver that of NAVER LABS' data sets, in sensors/.\n"
     "\n"
     "  quatro_simulate --output=halls --protocol=pairs --world=hall "
     "--pairs=50\n"
@@ -143,6 +148,7 @@ int WriteDrive() {
   options.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
   options.ins_sigma = FLAGS_ins_noise_deg * kDegree;
   options.ins_bias_sigma = FLAGS_ins_bias_deg * kDegree;
+  options.layout = FLAGS_layout;
   options.num_threads = FLAGS_threads;
   options.overwrite = FLAGS_overwrite;
   std::string error;

@@ -89,15 +89,17 @@ bool WriteCloud(const PointCloud& cloud,
                 const std::string& path,
                 std::string* error) {
   const std::string ending = Ending(path);
-  if (ending != ".bin" && ending != ".ply") {
-    *error = path + ": ending " + Quoted(ending) + ": is not .bin or .ply";
+  if (ending != ".bin" && ending != ".ply" && ending != ".pcd") {
+    *error =
+        path + ": ending " + Quoted(ending) + ": is not .bin, .ply or .pcd";
     return false;
   }
   std::string reason;
   std::optional<std::string> bytes;
   if (IsWritable(cloud, &reason)) {
-    bytes =
-        ending == ".bin" ? FormatKittiBin(cloud, &reason) : FormatPly(cloud);
+    bytes = ending == ".bin"   ? FormatKittiBin(cloud, &reason)
+            : ending == ".pcd" ? FormatPcd(cloud, &reason)
+                               : FormatPly(cloud);
   }
   if (!bytes) {
     *error = path + ": " + reason;

@@ -22,9 +22,9 @@ namespace quatro {
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     std::string* error);
 
-// Writes `.bin` (float32 x y z intensity) or `.ply` (binary little-endian,
-// double x y z and, where there is one, float intensity). Returns false and
-// sets *error if it can't.
+// Writes `.bin` (float32 x y z intensity), `.pcd` (binary, float32 x y z) or
+// `.ply` (binary little-endian, double x y z), the last two with a float
+// intensity where there is one. Returns false and sets *error if it can't.
 bool WriteCloud(const PointCloud& cloud,
                 const std::string& path,
                 std::string* error);

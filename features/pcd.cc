@@ -7,6 +7,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -197,6 +198,35 @@ std::optional<PointCloud> ParsePcd(std::string_view bytes, std::string* error) {
   }
   return ReadBinary(
       *header, *columns, bytes, /*is_field_by_field=*/false, error);
+}
+
+std::optional<std::string> FormatPcd(const PointCloud& cloud,
+                                     std::string* error) {
+  const bool has_intensity = cloud.intensity.size() != 0;
+  const std::string count = std::to_string(cloud.points.cols());
+  std::string bytes = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7";
+  for (const char* line : {"FIELDS x y z", "SIZE 4 4 4", "TYPE F F F"}) {
+    bytes += std::string("\n") + line;
+    if (has_intensity) {
+      bytes += *line == 'F' ? " intensity" : *line == 'S' ? " 4" : " F";
+    }
+  }
+  bytes += std::string("\nCOUNT 1 1 1") + (has_intensity ? " 1" : "") +
+           "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+           count + "\nDATA binary\n";
+  for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
+    for (const double coordinate : cloud.points.col(i)) {
+      const float rounded = static_cast<float>(coordinate);
+      if (!std::isfinite(rounded)) {
+        *error =
+            "point " + std::to_string(i) + ": is beyond the range of float32";
+        return std::nullopt;
+      }
+      AppendLittleEndian(rounded, &bytes);
+    }
+    if (has_intensity) AppendLittleEndian(cloud.intensity[i], &bytes);
+  }
+  return bytes;
 }
 
 }  // namespace quatro

@@ -20,6 +20,11 @@ namespace quatro {
 // Sets *error, without a path, if there is no cloud in `bytes`.
 std::optional<PointCloud> ParsePcd(std::string_view bytes, std::string* error);
 
+// Binary, float32 x y z and, where there is one, intensity: coordinates are
+// rounded. Sets *error if one is beyond the range of float32.
+std::optional<std::string> FormatPcd(const PointCloud& cloud,
+                                     std::string* error);
+
 }  // namespace quatro
 
 #endif  // QUATRO_FEATURES_PCD_H_

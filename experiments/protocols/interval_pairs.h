@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/datasets/pair_selection.h"
 #include "experiments/datasets/sequence_data.h"
-#include "experiments/protocols/pair_selection.h"
 
 namespace quatro {
 

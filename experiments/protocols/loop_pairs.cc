@@ -6,6 +6,7 @@
 #include <bit>
 #include <sstream>
 
+#include "experiments/protocols/draw_evenly.h"
 #include "features/random.h"
 
 namespace quatro {

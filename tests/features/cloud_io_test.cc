@@ -829,6 +829,18 @@ TEST_F(CloudIoTest, BinWithoutIntensityHasZeros) {
   EXPECT_EQ(read->intensity, Eigen::Vector3f::Zero());
 }
 
+TEST_F(CloudIoTest, PcdComesBackRoundedToFloat) {
+  for (const bool has_intensity : {true, false}) {
+    std::string error;
+    const PointCloud cloud = RandomCloud(100, has_intensity);
+    ASSERT_TRUE(WriteCloud(cloud, PathOf("a.pcd"), &error)) << error;
+    const auto read = ReadCloud(PathOf("a.pcd"), &error);
+    ASSERT_TRUE(read.has_value()) << error;
+    EXPECT_EQ(read->points, cloud.points.cast<float>().cast<double>());
+    EXPECT_EQ(read->intensity, cloud.intensity);
+  }
+}
+
 // Leaves no trace: neither the file nor a temporary one.
 class CloudIoWriteErrorTest : public CloudIoTest {
  protected:
@@ -843,8 +855,8 @@ class CloudIoWriteErrorTest : public CloudIoTest {
 };
 
 TEST_F(CloudIoWriteErrorTest, UnknownEnding) {
-  EXPECT_EQ(WriteErrorOf(RandomCloud(3, true), PathOf("a.pcd")),
-            "ending '.pcd': is not .bin or .ply");
+  EXPECT_EQ(WriteErrorOf(RandomCloud(3, true), PathOf("a.las")),
+            "ending '.las': is not .bin, .ply or .pcd");
 }
 
 TEST_F(CloudIoWriteErrorTest, MissingDirectory) {
@@ -891,8 +903,10 @@ TEST_F(CloudIoWriteErrorTest, WhatCouldNotBeReadBack) {
             "points: there are none");
   PointCloud cloud = RandomCloud(3, true);
   cloud.points(1, 2) = 1e300;
-  EXPECT_EQ(WriteErrorOf(cloud, PathOf("a.bin")),
-            "point 2: is beyond the range of float32");
+  for (const char* name : {"a.bin", "a.pcd"}) {
+    EXPECT_EQ(WriteErrorOf(cloud, PathOf(name)),
+              "point 2: is beyond the range of float32");
+  }
   cloud.points(1, 2) = kNan;
   EXPECT_EQ(WriteErrorOf(cloud, PathOf("a.ply")), "points: not all are finite");
   cloud = RandomCloud(3, true);

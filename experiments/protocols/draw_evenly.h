@@ -1,32 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a protocol or a list of pairs makes: the tasks in order, and what was
-// left out or is missing, a line each, for people.
+// Some of many, spread over all of them.
 
-#ifndef QUATRO_EXPERIMENTS_PROTOCOLS_PAIR_SELECTION_H_
-#define QUATRO_EXPERIMENTS_PROTOCOLS_PAIR_SELECTION_H_
+#ifndef QUATRO_EXPERIMENTS_PROTOCOLS_DRAW_EVENLY_H_
+#define QUATRO_EXPERIMENTS_PROTOCOLS_DRAW_EVENLY_H_
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
-#include "experiments/runner/pair_task.h"
 #include "features/random.h"
 
 namespace quatro {
-
-struct PairSelection {
-  std::vector<PairTask> tasks;
-
-  // Pairs for which a pose is missing, so that they are no tasks.
-  int num_without_pose = 0;
-
-  // Files of scans that are not there, each once, though many tasks may name
-  // it; those tasks stay.
-  int num_missing_scans = 0;
-
-  std::vector<std::string> notes;
-};
 
 // `max` of 0 .. n - 1 (all if max is 0 or n is not more), as even as can be:
 //
@@ -49,4 +33,4 @@ inline std::vector<std::size_t> DrawEvenly(std::size_t n,
 
 }  // namespace quatro
 
-#endif  // QUATRO_EXPERIMENTS_PROTOCOLS_PAIR_SELECTION_H_
+#endif  // QUATRO_EXPERIMENTS_PROTOCOLS_DRAW_EVENLY_H_

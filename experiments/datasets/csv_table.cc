@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/datasets/csv_table.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "experiments/number_text.h"
+#include "features/file.h"
+
+namespace quatro {
+
+bool CsvTable::Has(const std::string& column) const {
+  return std::find(columns.begin(), columns.end(), column) != columns.end();
+}
+
+std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') {
+      const bool is_doubled =
+          is_quoted && i + 1 < line.size() && line[i + 1] == '"';
+      if (is_doubled) {
+        cells.back() += line[++i];
+      } else {
+        is_quoted = !is_quoted;
+      }
+    } else if (line[i] == ',' && !is_quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += line[i];
+    }
+  }
+  if (is_quoted) return std::nullopt;
+  return cells;
+}
+
+std::optional<CsvTable> ReadCsvTable(const std::string& path,
+                                     std::string* error) {
+  const auto text = ReadWholeFile(path, error);
+  if (!text) return std::nullopt;
+  CsvTable table;
+  int line_number = 0;
+  for (const std::string_view line : SplitLines(*text)) {
+    ++line_number;
+    const std::string where = path + ": line " + std::to_string(line_number);
+    if (line.empty() || line == "\r") continue;
+    auto cells = SplitCsvLine(line);
+    if (!cells) {
+      *error = where + " has a quote that is not closed";
+      return std::nullopt;
+    }
+    if (table.columns.empty()) {
+      const std::set<std::string> names(cells->begin(), cells->end());
+      if (names.size() != cells->size()) {
+        *error = where + " has a column twice";
+        return std::nullopt;
+      }
+      table.columns = std::move(*cells);
+      continue;
+    }
+    if (cells->size() != table.columns.size()) {
+      *error = where + " has " + std::to_string(cells->size()) +
+               " cells, must have " + std::to_string(table.columns.size());
+      return std::nullopt;
+    }
+    CsvRow row;
+    row.where = where;
+    for (std::size_t i = 0; i < cells->size(); ++i) {
+      row.cells[table.columns[i]] = std::move((*cells)[i]);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  if (table.columns.empty()) {
+    *error = path + ": is empty, must start with the names of its columns";
+    return std::nullopt;
+  }
+  return table;
+}
+
+}  // namespace quatro

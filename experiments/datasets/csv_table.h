@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A table of text: the first line names the columns, cells are separated by
+// commas, and those that hold commas are in double quotes. No cell holds a line
+// break.
+
+#ifndef QUATRO_EXPERIMENTS_DATASETS_CSV_TABLE_H_
+#define QUATRO_EXPERIMENTS_DATASETS_CSV_TABLE_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quatro {
+
+struct CsvRow {
+  std::string where;  // "<file>: line <number>", for errors.
+  std::map<std::string, std::string> cells;  // Column -> cell.
+};
+
+struct CsvTable {
+  std::vector<std::string> columns;
+  std::vector<CsvRow> rows;
+
+  bool Has(const std::string& column) const;
+};
+
+// The cells of a line. Nullopt if a quote is not closed.
+std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line);
+
+// Nullopt with one line in *error, which names file and line, if a column comes
+// twice or a row has not as many cells as there are columns. Empty lines are
+// passed over.
+std::optional<CsvTable> ReadCsvTable(const std::string& path,
+                                     std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_DATASETS_CSV_TABLE_H_
