@@ -38,7 +38,11 @@ DEFINE_bool(list_methods, false, "Print the methods and end");
 DEFINE_string(data, "", "Folder of a drive, or of a data set with drives");
 DEFINE_string(sequences, "", "Drives of the data set, 00,02; empty: all");
 DEFINE_string(poses, "", "File of true poses in place of the data set's own");
-DEFINE_string(pairs, "", "Of pairs: the list, see README");
+DEFINE_string(
+    pairs,
+    "",
+    "Of pairs: the list, a .csv, or one of KITTI pairs (kitti_10m, kitti_lc) "
+    "whose sequences --data holds");
 DEFINE_string(preset,
               "kitti",
               "Parameters of all methods: kitti, paper, reference, indoor, or "
@@ -148,6 +152,9 @@ std::optional<quatro::RunMethods> MethodsOfFlags(std::string* error) {
 }
 
 std::optional<quatro::PairSelection> TasksOfFlags(std::string* error) {
+  if (FLAGS_protocol == "pairs") {
+    return quatro::OpenPairList(FLAGS_pairs, FLAGS_data, error);
+  }
   quatro::ProtocolOptions protocol;
   protocol.name = FLAGS_protocol;
   const auto bins = quatro::ParseBins(FLAGS_bins, error);

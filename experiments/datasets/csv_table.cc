@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "experiments/csv_line.h"
 #include "experiments/number_text.h"
 #include "features/file.h"
 
@@ -14,29 +15,6 @@ namespace quatro {
 
 bool CsvTable::Has(const std::string& column) const {
   return std::find(columns.begin(), columns.end(), column) != columns.end();
-}
-
-std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string> cells(1);
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') {
-      const bool is_doubled =
-          is_quoted && i + 1 < line.size() && line[i + 1] == '"';
-      if (is_doubled) {
-        cells.back() += line[++i];
-      } else {
-        is_quoted = !is_quoted;
-      }
-    } else if (line[i] == ',' && !is_quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += line[i];
-    }
-  }
-  if (is_quoted) return std::nullopt;
-  return cells;
 }
 
 std::optional<CsvTable> ReadCsvTable(const std::string& path,
@@ -51,7 +29,7 @@ std::optional<CsvTable> ReadCsvTable(const std::string& path,
     if (line.empty() || line == "\r") continue;
     auto cells = SplitCsvLine(line);
     if (!cells) {
-      *error = where + " has a quote that is not closed";
+      *error = where + " has a quote that is not closed or within a cell";
       return std::nullopt;
     }
     if (table.columns.empty()) {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A table of text: the first line names the columns, cells are separated by
-// commas, and those that hold commas are in double quotes. No cell holds a line
-// break.
+// A table of text (csv_line.h) whose first line names the columns.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_CSV_TABLE_H_
 #define QUATRO_EXPERIMENTS_DATASETS_CSV_TABLE_H_
@@ -10,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace quatro {
@@ -26,9 +23,6 @@ struct CsvTable {
 
   bool Has(const std::string& column) const;
 };
-
-// The cells of a line. Nullopt if a quote is not closed.
-std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line);
 
 // Nullopt with one line in *error, which names file and line, if a column comes
 // twice or a row has not as many cells as there are columns. Empty lines are

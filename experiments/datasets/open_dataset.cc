@@ -3,9 +3,55 @@
 
 #include "experiments/datasets/open_dataset.h"
 
+#include <filesystem>
+
 #include "experiments/datasets/kitti_odometry.h"
+#include "experiments/datasets/kitti_pair_list.h"
+#include "experiments/datasets/kitti_raw.h"
+#include "experiments/datasets/naver.h"
+#include "experiments/datasets/pairs_csv.h"
 
 namespace quatro {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool Exists(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool IsNaver(const fs::path& folder) {
+  for (const char* part : {"", "mapping", "release/mapping"}) {
+    if (Exists(folder / part / "sensors" / "records_lidar.txt")) return true;
+  }
+  return false;
+}
+
+std::optional<SequenceData> OpenDrive(const DatasetOptions& options,
+                                      const std::string& name,
+                                      std::string* error) {
+  const fs::path folder = fs::path(options.folder) / name;
+  const bool is_raw = Exists(folder / "velodyne_points");
+  const bool is_naver = IsNaver(folder);
+  if ((is_raw || is_naver) && !options.poses.empty()) {
+    *error = folder.string() + ": true poses of a file are of KITTI odometry";
+    return std::nullopt;
+  }
+  if (is_raw) return ReadKittiRaw(folder.string(), error);
+  if (is_naver) {
+    NaverOptions naver;
+    naver.folder = folder.string();
+    return ReadNaver(naver, error);
+  }
+  KittiOdometryOptions kitti;
+  kitti.folder = options.folder;
+  kitti.sequence = name;
+  kitti.poses = options.poses;
+  return ReadKittiOdometry(kitti, error);
+}
+
+}  // namespace
 
 std::optional<std::vector<SequenceData>> OpenDataset(
     const DatasetOptions& options, std::string* error) {
@@ -23,15 +69,30 @@ std::optional<std::vector<SequenceData>> OpenDataset(
   }
   std::vector<SequenceData> drives;
   for (const std::string& name : names) {
-    KittiOdometryOptions kitti;
-    kitti.folder = options.folder;
-    kitti.sequence = name;
-    kitti.poses = options.poses;
-    auto drive = ReadKittiOdometry(kitti, error);
+    auto drive = OpenDrive(options, name, error);
     if (!drive) return std::nullopt;
     drives.push_back(std::move(*drive));
   }
   return drives;
+}
+
+std::optional<PairSelection> OpenPairList(const std::string& list,
+                                          const std::string& folder,
+                                          std::string* error) {
+  if (list.empty()) {
+    *error = "--pairs is empty, must name a list";
+    return std::nullopt;
+  }
+  if (list.ends_with(".csv")) return ReadPairsCsv(list, error);
+  if (folder.empty()) {
+    *error =
+        "--data is empty, must name the folder of the sequences in " + list;
+    return std::nullopt;
+  }
+  KittiPairListOptions options;
+  options.list = list;
+  options.folder = folder;
+  return ReadKittiPairList(options, error);
 }
 
 }  // namespace quatro

@@ -1,6 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The drives of a folder, whatever its layout; which one it is, its files tell.
+// The drives of a folder, or the pairs of a list, whatever their layout; which
+// one it is, the files tell:
+//
+//   velodyne_points/            KITTI raw       kitti_raw.h
+//   sensors/records_lidar.txt   NAVER LABS      naver.h
+//   else                        KITTI odometry  kitti_odometry.h
+//   a list that ends in .csv    pairs_csv.h, any other kitti_pair_list.h
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
 #define QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
@@ -9,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/datasets/pair_selection.h"
 #include "experiments/datasets/sequence_data.h"
 
 namespace quatro {
@@ -24,6 +31,12 @@ struct DatasetOptions {
 // Nullopt with one line in *error if there are none, or one can't be read.
 std::optional<std::vector<SequenceData>> OpenDataset(
     const DatasetOptions& options, std::string* error);
+
+// `folder`: that of the sequences which a list of KITTI pairs names; empty for
+// one that names its scans itself. Nullopt with one line in *error.
+std::optional<PairSelection> OpenPairList(const std::string& list,
+                                          const std::string& folder,
+                                          std::string* error);
 
 }  // namespace quatro
 

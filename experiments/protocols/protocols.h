@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/datasets/pair_selection.h"
 #include "experiments/datasets/sequence_data.h"
 #include "experiments/protocols/distance_bin.h"
-#include "experiments/protocols/pair_selection.h"
 
 namespace quatro {
 
