@@ -4,6 +4,7 @@
 #include <gflags/gflags.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,10 @@
 #include "experiments/outputs.h"
 #include "experiments/program.h"
 #include "experiments/progress_line.h"
+#include "experiments/protocols/loop_pairs.h"
+#include "experiments/protocols/odometry_runs.h"
 #include "experiments/protocols/protocols.h"
+#include "experiments/protocols/tilt.h"
 #include "experiments/runner/pair_experiment.h"
 #include "experiments/runner/stop_signal.h"
 #include "experiments/synthetic_protocols.h"
@@ -23,8 +27,9 @@
 
 DEFINE_string(protocol,
               "",
-              "On scans: loop, interval, yaw, timing or pairs. On matched "
-              "points: tims (yaw from differences, 95-99 % outliers), "
+              "On scans: loop, interval, yaw, timing, pairs, odometry or tilt "
+              "(of loops, no method). On matched points: tims (yaw from "
+              "differences, 95-99 % outliers), "
               "degeneracy (1-5 true matches), quasi_inliers (right in xy, "
               "wrong in z), sizes (a thousand to a million matches), slopes "
               "(tilts of 2-15 deg with an INS) or surrogates (numbers for "
@@ -50,14 +55,19 @@ DEFINE_string(preset,
 DEFINE_string(ins_mode,
               "fused",
               "What quatro_ins makes of the INS: relative, leveled or fused");
-DEFINE_string(bins, "0-2,4-6,8-10", "Of loop and timing: distances [m]");
-DEFINE_int32(min_frame_gap, 100, "Of loop and timing: frames between visits");
-DEFINE_double(min_path, 50.0, "Of loop and timing: way between visits [m]");
-DEFINE_string(intervals, "1,3,5", "Of interval: frames apart; yaw: the last");
+DEFINE_string(bins, "0-2,4-6,8-10", "Of loop, timing, tilt: distances [m]");
+DEFINE_int32(min_frame_gap,
+             100,
+             "Of loop, timing, tilt: frames between visits");
+DEFINE_double(min_path, 50.0, "Of loop, timing, tilt: way between visits [m]");
+DEFINE_string(intervals,
+              "1,3,5",
+              "Of interval, odometry: frames apart; yaw: the last");
 DEFINE_double(yaw_step_deg, 30.0, "Of yaw: from one turn to the next [deg]");
 DEFINE_int32(max_pairs,
              100,
              "Of each drive and each bin or interval; 0: all there are");
+DEFINE_int32(max_frames, 0, "Of odometry: of each drive; 0: all there are");
 DEFINE_uint64(seed, 1, "Of the choice of pairs and of the methods");
 DEFINE_string(shard, "1/1", "On scans: do part k of n alone, k/n");
 DEFINE_bool(merge, false, "On scans: put the parts in --output together");
@@ -117,20 +127,40 @@ std::vector<std::string> SplitNames(const std::string& text) {
   return names;
 }
 
-std::optional<quatro::RunMethods> MethodsOfFlags(std::string* error) {
-  quatro::RunMethods methods;
-  methods.names = SplitNames(FLAGS_methods);
-  methods.use_auto_options = FLAGS_preset == "auto";
-  const auto preset =
-      quatro::MakePreset(methods.use_auto_options ? "kitti" : FLAGS_preset);
-  if (!preset) {
+// Nullopt with *error set if the preset is not known.
+std::optional<quatro::RegistrationOptions> OptionsOfFlags(std::string* error) {
+  auto options =
+      quatro::MakePreset(FLAGS_preset == "auto" ? "kitti" : FLAGS_preset);
+  if (!options) {
     *error = "--preset=" + FLAGS_preset + ", must be auto";
     for (const std::string& name : quatro::PresetNames()) *error += ", " + name;
     return std::nullopt;
   }
-  methods.options = *preset;
-  methods.options.seed = FLAGS_seed;
-  methods.options.num_threads = 1;
+  options->seed = FLAGS_seed;
+  options->num_threads = 1;
+  return options;
+}
+
+std::optional<std::vector<int>> IntervalsOfFlags(std::string* error) {
+  std::vector<int> intervals;
+  for (const std::string& text : SplitNames(FLAGS_intervals)) {
+    const auto number = quatro::ParseFiniteNumber(text);
+    if (!number || *number < 1.0 || *number != static_cast<int>(*number)) {
+      *error = "--intervals: '" + text + "' is no number of frames";
+      return std::nullopt;
+    }
+    intervals.push_back(static_cast<int>(*number));
+  }
+  return intervals;
+}
+
+std::optional<quatro::RunMethods> MethodsOfFlags(std::string* error) {
+  quatro::RunMethods methods;
+  methods.names = SplitNames(FLAGS_methods);
+  methods.use_auto_options = FLAGS_preset == "auto";
+  const auto options = OptionsOfFlags(error);
+  if (!options) return std::nullopt;
+  methods.options = *options;
   bool is_mode = false;
   for (const quatro::InsMode mode : {quatro::InsMode::kRelative,
                                      quatro::InsMode::kLeveled,
@@ -151,6 +181,12 @@ std::optional<quatro::RunMethods> MethodsOfFlags(std::string* error) {
   return methods;
 }
 
+std::optional<std::vector<quatro::SequenceData>> DrivesOfFlags(
+    std::string* error) {
+  return quatro::OpenDataset(
+      {FLAGS_data, SplitNames(FLAGS_sequences), FLAGS_poses}, error);
+}
+
 std::optional<quatro::PairSelection> TasksOfFlags(std::string* error) {
   if (FLAGS_protocol == "pairs") {
     return quatro::OpenPairList(FLAGS_pairs, FLAGS_data, error);
@@ -165,22 +201,15 @@ std::optional<quatro::PairSelection> TasksOfFlags(std::string* error) {
   protocol.bins = *bins;
   protocol.min_frame_gap = FLAGS_min_frame_gap;
   protocol.min_path = FLAGS_min_path;
-  protocol.intervals.clear();
-  for (const std::string& text : SplitNames(FLAGS_intervals)) {
-    const auto number = quatro::ParseFiniteNumber(text);
-    if (!number || *number < 1.0 || *number != static_cast<int>(*number)) {
-      *error = "--intervals: '" + text + "' is no number of frames";
-      return std::nullopt;
-    }
-    protocol.intervals.push_back(static_cast<int>(*number));
-  }
+  const auto intervals = IntervalsOfFlags(error);
+  if (!intervals) return std::nullopt;
+  protocol.intervals = *intervals;
   protocol.yaw_step_deg = FLAGS_yaw_step_deg;
   protocol.max_pairs = FLAGS_max_pairs;
   protocol.seed = FLAGS_seed;
   if (!protocol.IsValid(error)) return std::nullopt;
 
-  const auto drives = quatro::OpenDataset(
-      {FLAGS_data, SplitNames(FLAGS_sequences), FLAGS_poses}, error);
+  const auto drives = DrivesOfFlags(error);
   if (!drives) return std::nullopt;
   return quatro::SelectPairs(*drives, protocol, error);
 }
@@ -228,6 +257,96 @@ int RunOnScans() {
   return quatro::kExitDone;
 }
 
+void TellNotes(const std::vector<quatro::SequenceData>& drives) {
+  for (const quatro::SequenceData& drive : drives) {
+    for (const std::string& note : drive.notes) {
+      std::fprintf(stderr, "%s\n", note.c_str());
+    }
+  }
+}
+
+int RunOdometryProtocol() {
+  std::string error;
+  if (FLAGS_output.empty()) {
+    return Fail("--output is empty, must name a folder");
+  }
+  quatro::OdometryRunOptions options;
+  options.methods = SplitNames(FLAGS_methods);
+  const auto intervals = IntervalsOfFlags(&error);
+  if (!intervals) return Fail(error);
+  options.intervals = *intervals;
+  options.max_frames = FLAGS_max_frames;
+  const auto registration = OptionsOfFlags(&error);
+  if (!registration) return Fail(error);
+  options.registration = *registration;
+  options.registration.num_threads = FLAGS_threads;
+  if (!options.IsValid(&error)) return Fail(error);
+  const auto drives = DrivesOfFlags(&error);
+  if (!drives) return Fail(error);
+  TellNotes(*drives);
+  const auto results = quatro::RunOdometries(
+      *drives,
+      options,
+      FLAGS_output,
+      [](const quatro::OdometryRunProgress& now) {
+        std::fprintf(stderr,
+                     "\r%s, %s, interval %d: %d of %d scans   %s",
+                     now.drive.c_str(),
+                     now.method.c_str(),
+                     now.interval,
+                     now.num_done,
+                     now.num_scans,
+                     now.num_done == now.num_scans ? "\n" : "");
+      },
+      &error);
+  if (!results) return Fail(error);
+  const auto quoted = quatro::QuotedTableTwo();
+  std::vector<quatro::DriftEntry> entries = quatro::MeanDrifts(*results);
+  entries.insert(entries.end(), quoted.begin(), quoted.end());
+  const quatro::Table table = quatro::MakeTableTwo(entries);
+  std::fputs(quatro::FormatTable(table).c_str(), stdout);
+  if (!quatro::WriteOutputs(
+          {{FLAGS_output + "/table_two.csv", quatro::FormatCsv(table)}},
+          &error)) {
+    return Fail(error);
+  }
+  return quatro::kExitDone;
+}
+
+int RunTiltProtocol() {
+  std::string error;
+  if (FLAGS_output.empty()) {
+    return Fail("--output is empty, must name a folder");
+  }
+  const auto bins = quatro::ParseBins(FLAGS_bins, &error);
+  if (!bins) return Fail("--bins: " + error);
+  quatro::LoopOptions loop;
+  loop.min_frame_gap = FLAGS_min_frame_gap;
+  loop.min_path = FLAGS_min_path;
+  if (!loop.IsValid(&error)) return Fail(error);
+  const auto drives = DrivesOfFlags(&error);
+  if (!drives) return Fail(error);
+  TellNotes(*drives);
+  std::vector<quatro::RelativeTilting> tilts;
+  for (const quatro::SequenceData& drive : *drives) {
+    for (const quatro::DistanceBin& bin : *bins) {
+      const auto more = quatro::MeasureTilts(drive, bin, loop);
+      tilts.insert(tilts.end(), more.begin(), more.end());
+    }
+  }
+  std::error_code status;
+  std::filesystem::create_directories(FLAGS_output, status);
+  if (status) return Fail(FLAGS_output + ": " + status.message());
+  if (!quatro::WriteOutputs(
+          {{FLAGS_output + "/tilts.csv", quatro::FormatTilts(tilts)}},
+          &error)) {
+    return Fail(error);
+  }
+  std::printf(
+      "%zu loops in %s/tilts.csv\n", tilts.size(), FLAGS_output.c_str());
+  return quatro::kExitDone;
+}
+
 bool IsOnScans() {
   if (FLAGS_protocol == "pairs") return true;
   for (const std::string& name : quatro::DriveProtocolNames()) {
@@ -252,14 +371,17 @@ int main(int argc, char** argv) {
   if (FLAGS_max_matches < 1000) return Fail("--max_matches must be >= 1000");
   if (FLAGS_threads < 0) return Fail("--threads must be >= 0");
   if (IsOnScans()) return RunOnScans();
+  if (FLAGS_protocol == "odometry") return RunOdometryProtocol();
+  if (FLAGS_protocol == "tilt") return RunTiltProtocol();
   if (!FLAGS_output.empty() && !quatro::CanWrite(FLAGS_output, &error)) {
     return Fail(error);
   }
   const auto table = RunSynthetic(FLAGS_protocol);
   if (!table) {
-    return Fail("--protocol=" + FLAGS_protocol +
-                ", must be loop, interval, yaw, timing, pairs, tims, "
-                "degeneracy, quasi_inliers, sizes, slopes or surrogates");
+    return Fail(
+        "--protocol=" + FLAGS_protocol +
+        ", must be loop, interval, yaw, timing, pairs, odometry, tilt, tims, "
+        "degeneracy, quasi_inliers, sizes, slopes or surrogates");
   }
   std::fputs(quatro::FormatTable(*table).c_str(), stdout);
   if (!FLAGS_output.empty() &&
