@@ -3,6 +3,8 @@
 
 #include "robust/registration.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -65,7 +67,10 @@ DescribedCloud Describe(const Points& points,
       FindNeighborhoods(tree, options.fpfh_radius, num_threads);
   Points normals = EstimateNormals(
       points, neighborhoods, options.normal_radius, sensor.place, num_threads);
-  Fpfh fpfh = ComputeFpfh(points, normals, neighborhoods, num_threads);
+  Fpfh fpfh = options.describe
+                  ? options.describe(points, normals, options.fpfh_radius)
+                  : ComputeFpfh(points, normals, neighborhoods, num_threads);
+  CHECK_EQ(fpfh.cols(), points.cols());
   return {up, sensor, std::move(tree), std::move(normals), std::move(fpfh)};
 }
 
