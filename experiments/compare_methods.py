@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 """One table of several methods on the same scan pairs.
 
-    compare_methods.py --pairs=pairs.csv --methods=quatro,teaser,fgr [--output=FOLDER] [-- FLAGS]
+    compare_methods.py --pairs=pairs.csv --methods=quatro,teaser,fgr [--output=FOLDER]
+        [--outside=NAME=results.csv] [-- FLAGS]
 
 Runs run_pairs.py's measurement with each --method of quatro_register and prints
 a row each, as Markdown: pairs registered, within the three limits, wrong but
@@ -12,11 +13,22 @@ front end and of the rest, and the largest memory of a run. The folder gets
 METHOD.csv, a line per pair, and METHOD.run, what made it. A run that was stopped
 goes on from what is there, if it was made by the same flags.
 
+--outside=NAME=FILE adds a row NAME of what another program found. A line is
+
+    source,target,m00,m01,m02,m03,m10,...,m23[,0,0,0,1]
+
+with both paths as the list of pairs has them and the rows of the 3x4 or 4x4 matrix
+that moves the source onto the target. A pair that the program does not answer is
+left out: each that is there counts as registered. Empty lines, those that start
+with # and a first one that starts with source,target are passed over, and so are
+pairs of sets that are excluded.
+
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
 import argparse
 import csv
 import json
+import math
 import os
 import pathlib
 import statistics
@@ -25,6 +37,7 @@ import sys
 import run_pairs
 
 FRONT_END = ("voxels", "features", "matching")
+MAX_DEVIATION = 1e-3  # Of R^T R from the identity, by element.
 
 
 def summarize(method, results):
@@ -57,6 +70,77 @@ def summarize(method, results):
             time(True), time(False), f"{max(memory):.0f}" if memory else "-")
 
 
+def parse_matrix(fields, where):
+    """4 rows of 4, the last one 0 0 0 1."""
+    if len(fields) not in (12, 16):
+        raise run_pairs.BadInput(f"{where} has {len(fields)} numbers after source and target, "
+                                 "must have 12 or 16")
+    values = []
+    for number, field in enumerate(fields, 1):
+        try:
+            values.append(float(field))
+        except ValueError:
+            raise run_pairs.BadInput(f"{where} number {number} is {field!r}") from None
+        if not math.isfinite(values[-1]):
+            raise run_pairs.BadInput(f"{where} number {number} is {field!r}, must be finite")
+    rows = [values[i:i + 4] for i in range(0, len(values), 4)]
+    if len(rows) == 3:
+        rows.append([0.0, 0.0, 0.0, 1.0])
+    if math.dist(rows[3], (0.0, 0.0, 0.0, 1.0)) > 1e-6:
+        raise run_pairs.BadInput(f"{where} does not end with the row 0 0 0 1")
+    a, b, c = ([row[j] for row in rows[:3]] for j in range(3))
+    deviation = max(abs(sum(x * y for x, y in zip(u, v)) - (u is v))
+                    for u in (a, b, c) for v in (a, b, c))
+    determinant = sum(a[i] * (b[i - 2] * c[i - 1] - b[i - 1] * c[i - 2]) for i in range(3))
+    if not deviation <= MAX_DEVIATION or determinant < 0.0:
+        raise run_pairs.BadInput(f"{where} is not a rotation and a translation")
+    return rows
+
+
+def parse_outside(text):
+    """NAME and FILE of NAME=FILE."""
+    name, _, path = text.partition("=")
+    if not name or not path:
+        raise run_pairs.BadInput(f"--outside={text}: must be NAME=FILE.csv")
+    return name, path
+
+
+def read_outside(path, known):
+    """(source, target) -> matrix; each must be one of `known`."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            lines = file.read().splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise run_pairs.BadInput(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+    found = {}
+    for number, line in enumerate(lines, 1):
+        fields = [field.strip() for field in next(csv.reader([line]), ())]
+        if not any(fields) or line.startswith("#"):
+            continue
+        if number == 1 and fields[:2] == ["source", "target"]:
+            continue
+        where = f"{path}: line {number}"
+        pair = tuple(fields[:2])
+        if pair not in known:
+            raise run_pairs.BadInput(f"{where}: no pair {','.join(pair)} is in the list of pairs")
+        if pair in found:
+            raise run_pairs.BadInput(f"{where}: the pair {','.join(pair)} was there before")
+        found[pair] = parse_matrix(fields[2:], where)
+    if not found:
+        raise run_pairs.BadInput(f"{path}: there are no pairs")
+    return found
+
+
+def measure_outside(pairs, found):
+    results = []
+    for pair in pairs:
+        matrix = found.get((pair.source, pair.target))
+        results.append(run_pairs.measure(pair, {
+            "status": "no answer" if matrix is None else "registered",
+            "target_from_source": matrix}))
+    return results
+
+
 def run_path(path):
     return os.path.splitext(path)[0] + ".run"
 
@@ -77,11 +161,13 @@ def read_results(path, run):
 def main(args):
     parser = run_pairs.Parser(prog="compare_methods.py", description=__doc__, allow_abbrev=False,
                               formatter_class=argparse.RawDescriptionHelpFormatter,
-                              usage="compare_methods.py --pairs=FILE --methods=A,B [options] "
+                              usage="compare_methods.py --pairs=FILE [--methods=A,B] [options] "
                                     "[-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
-    parser.add_argument("--methods", metavar="A,B", required=True,
+    parser.add_argument("--methods", metavar="A,B", default="",
                         help="of quatro_register --list_methods")
+    parser.add_argument("--outside", action="append", default=[], metavar="NAME=FILE.csv",
+                        help="a row of another program's results; may be repeated")
     parser.add_argument("--output", metavar="FOLDER", help="for a file per method")
     parser.add_argument("--program", default=str(run_pairs.DEFAULT_PROGRAM), metavar="FILE",
                         help="quatro_register (default: that in build/bin)")
@@ -89,7 +175,13 @@ def main(args):
                         help="leave out this set; may be repeated")
     split = args.index("--") if "--" in args else len(args)
     options, flags = parser.parse_args(args[:split]), args[split + 1:]
+    if not options.methods and not options.outside:
+        raise run_pairs.BadInput("there is neither --methods nor --outside")
     pairs = run_pairs.read_pairs(options.pairs, options.exclude)
+    known = {(row["source"], row["target"]) for _, row in run_pairs.read_rows(options.pairs)[0]}
+    # Before hours of runs, not after them.
+    outside = [(name, read_outside(path, known))
+               for name, path in map(parse_outside, options.outside)]
     if options.output:
         try:
             os.makedirs(options.output, exist_ok=True)
@@ -98,7 +190,7 @@ def main(args):
     rows = [("method", "registered", *(f"{m:g} m {d:g} deg" for m, d in run_pairs.SUCCESS.values()),
              "wrong", "median / mean [m]", "median / mean [deg]", "front end [ms]", "rest [ms]",
              "memory [MB]")]
-    for method in options.methods.split(","):
+    for method in options.methods.split(",") if options.methods else ():
         own = [*flags, f"--method={method}"]
         path = options.output and os.path.join(options.output, f"{method}.csv")
         run = run_pairs.describe_run(options.pairs, options.exclude, options.program, own)
@@ -114,6 +206,8 @@ def main(args):
                 run_pairs.write_atomically(path, run_pairs.format_results(results))
                 done.remove()
         rows.append(summarize(method, results))
+    for name, found in outside:
+        rows.append(summarize(name, measure_outside(pairs, found)))
     rows.insert(1, ("---",) * len(rows[0]))
     sys.stdout.write("".join("| " + " | ".join(row) + " |\n" for row in rows))
 

@@ -5,10 +5,13 @@
 
 #ifdef QUATRO_WITH_OPEN3D
 #include "experiments/peers/open3d.h"
+#include "experiments/peers/open3d_fpfh.h"
 #include "experiments/peers/open3d_icp.h"
 #endif
 #ifdef QUATRO_WITH_PCL
+#include "experiments/peers/pcl_fpfh.h"
 #include "experiments/peers/pcl_icp.h"
+#include "experiments/peers/pcl_ransac.h"
 #endif
 #include "robust/arc_consensus.h"
 #include "robust/fgr.h"
@@ -105,6 +108,17 @@ PoseSolver MakeOpen3dRansac(const QuatroOptions& options) {
 }
 #endif
 
+#ifdef QUATRO_WITH_PCL
+PoseSolver MakePclRansac(const QuatroOptions& options) {
+  PclRansacOptions ransac;
+  ransac.seed = options.seed;
+  return [ransac, bound = options.noise_bound](const PointsRef& source,
+                                               const PointsRef& target) {
+    return SolveByPclRansac(source, target, bound, ransac);
+  };
+}
+#endif
+
 RegistrationSummary RefineQuatro(const MatchedClouds& matched,
                                  const RegistrationOptions& options) {
   RegistrationOptions c2f = options;
@@ -138,6 +152,21 @@ RegistrationSummary RegisterByPeer(const PointCloud& source,
   local.refinement.method = method;
   return RegisterLocally(
       source, target, target_from_source_guess, local, align);
+}
+
+using Describer = Fpfh (*)(const Points& points,
+                           const Points& normals,
+                           double radius);
+
+template <Describer describe>
+RegistrationSummary RegisterByPeerFpfh(const PointCloud& source,
+                                       const PointCloud& target,
+                                       const Rigid3&,
+                                       const RegistrationOptions& options) {
+  RegistrationOptions described = options;
+  described.solver = nullptr;  // quatro
+  described.front_end.describe = describe;
+  return Register(source, target, described);
 }
 #endif
 
@@ -201,6 +230,9 @@ constexpr Method kMethods[] = {
      "RANSAC of Open3D, 10,000 samples at most",
      MakeOpen3dRansac},
 #endif
+#ifdef QUATRO_WITH_PCL
+    {"pcl_ransac", "RANSAC of PCL, 10,000 samples at most", MakePclRansac},
+#endif
     {"quatro_c2f",
      "clouds: quatro, then G-ICP from its pose",
      nullptr,
@@ -233,6 +265,11 @@ constexpr Method kMethods[] = {
      nullptr,
      Ins::kRefused,
      RegisterByPeer<AlignByOpen3d, RefinementMethod::kGicp>},
+    {"open3d_fpfh",
+     "clouds: quatro on matches of Open3D's FPFH, the same normals",
+     nullptr,
+     Ins::kRefused,
+     RegisterByPeerFpfh<ComputeFpfhByOpen3d>},
 #endif
 #ifdef QUATRO_WITH_PCL
     {"pcl_icp",
@@ -245,6 +282,11 @@ constexpr Method kMethods[] = {
      nullptr,
      Ins::kRefused,
      RegisterByPeer<AlignByPcl, RefinementMethod::kGicp>},
+    {"pcl_fpfh",
+     "clouds: quatro on matches of PCL's FPFH, the same normals",
+     nullptr,
+     Ins::kRefused,
+     RegisterByPeerFpfh<ComputeFpfhByPcl>},
 #endif
     {"aloam",
      "scans in a row (quatro_odometry): edges and planes, like A-LOAM",

@@ -3,12 +3,13 @@
 
 #include "robust/front_end.h"
 
+#include <glog/logging.h>
+
 #include <cmath>
 #include <optional>
 #include <sstream>
 #include <utility>
 
-#include "features/fpfh.h"
 #include "features/matching.h"
 #include "features/normals.h"
 #include "features/voxel_grid.h"
@@ -45,7 +46,12 @@ Fpfh Describe(const Points& points,
                                    options.normal_radius,
                                    cloud->sensor.place,
                                    num_threads);
-  return ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
+  Fpfh fpfh =
+      options.describe
+          ? options.describe(points, cloud->normals, options.fpfh_radius)
+          : ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
+  CHECK_EQ(fpfh.cols(), points.cols());
+  return fpfh;
 }
 
 }  // namespace

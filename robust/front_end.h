@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "features/fpfh.h"
 #include "features/kd_tree.h"
 #include "features/point_cloud.h"
 #include "features/stopwatch.h"
@@ -24,10 +25,16 @@
 
 namespace quatro {
 
+// Another descriptor of the same points, a column each; zero for no descriptor.
+// `normals` are unit or, where there is none, zero, `radius` [m].
+using CloudDescriber = std::function<Fpfh(
+    const Points& points, const Points& normals, double radius)>;
+
 struct FrontEndOptions {
   double voxel_size = 0.3;     // [m]
   double normal_radius = 0.9;  // [m]
   double fpfh_radius = 1.5;    // [m], no less than normal_radius.
+  CloudDescriber describe;     // In place of FPFH, with its radius.
   bool tuple_test = true;
   TupleTestOptions tuple;
 

@@ -24,7 +24,7 @@ if(QUATRO_WITH_PCL)
   # By hand: its own configuration brings in VTK, whose targets need MPI.
   find_path(PCL_INCLUDE_DIR pcl/features/fpfh.h PATH_SUFFIXES pcl-1.13 pcl-1.14 pcl-1.12 REQUIRED)
   set(PCL_FOUND_LIBRARIES "")
-  foreach(name IN ITEMS features registration search kdtree common)
+  foreach(name IN ITEMS features registration sample_consensus search kdtree common)
     find_library(PCL_${name}_LIBRARY pcl_${name} REQUIRED)
     list(APPEND PCL_FOUND_LIBRARIES ${PCL_${name}_LIBRARY})
   endforeach()

@@ -4,7 +4,6 @@
 #include "experiments/peers/pcl_icp.h"
 
 #include <pcl/console/print.h>
-#include <pcl/point_types.h>
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
 
@@ -12,6 +11,7 @@
 #include <exception>
 #include <string>
 
+#include "experiments/peers/pcl_cloud.h"
 #include "features/kd_tree.h"
 
 namespace quatro {
@@ -19,17 +19,6 @@ namespace {
 
 constexpr int kNumNeighbors = 20;
 constexpr Eigen::Index kNumNeeded = 3;
-
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-
-Cloud::Ptr ToCloud(const Points& points, const Eigen::Vector3d& origin) {
-  Cloud::Ptr cloud(new Cloud);
-  for (const auto point : points.colwise()) {
-    const Eigen::Vector3f p = (point - origin).cast<float>();
-    cloud->push_back({p.x(), p.y(), p.z()});
-  }
-  return cloud;
-}
 
 // PCL says "converged" of one that ran out of iterations.
 template <typename Base>
@@ -81,17 +70,12 @@ void Solve(const Points& source,
   Method method(options);
   method.setMaxCorrespondenceDistance(max_distance);
   method.setMaximumIterations(options.alignment.max_num_iterations);
-  method.setInputSource(ToCloud(source, origin));
-  method.setInputTarget(ToCloud(target, origin));
-  Cloud unused;
+  method.setInputSource(ToPclCloud(source, origin));
+  method.setInputTarget(ToPclCloud(target, origin));
+  PclCloud unused;
   method.align(unused, guess.ToMatrix().template cast<float>());
-  const Eigen::Matrix4d matrix =
-      method.getFinalTransformation().template cast<double>();
-  Rigid3 pose{Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>()))
-                  .normalized()
-                  .toRotationMatrix(),
-              matrix.topRightCorner<3, 1>()};
-  pose.translation += origin - pose.rotation * origin;
+  const Eigen::Matrix4f matrix = method.getFinalTransformation();
+  const Rigid3 pose = FromPclMatrix(matrix, origin);
   summary->termination = AlignmentTermination::kInsufficient;
   summary->message = "PCL ended where fewer than three points correspond";
   if (!method.hasConverged() || !matrix.allFinite()) return;

@@ -13,7 +13,6 @@
 #include "experiments/odometry/kitti_poses.h"
 #include "experiments/odometry/outside_drift.h"
 #include "experiments/odometry/table_two.h"
-#include "experiments/pair_poses.h"
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
@@ -30,14 +29,6 @@ class OutsideResultsTest : public ProgramTest {
     const std::string path = Write("poses.txt", text);
     std::string error;
     EXPECT_FALSE(ReadKittiPoses(path, &error)) << text;
-    EXPECT_THAT(error, HasSubstr(path + ": "));
-    EXPECT_THAT(error, HasSubstr(why));
-    EXPECT_EQ(error.find('\n'), std::string::npos);
-  }
-  void ExpectBadPairs(const std::string& text, const std::string& why) const {
-    const std::string path = Write("pairs.csv", text);
-    std::string error;
-    EXPECT_FALSE(ReadPairPoses(path, &error)) << text;
     EXPECT_THAT(error, HasSubstr(path + ": "));
     EXPECT_THAT(error, HasSubstr(why));
     EXPECT_EQ(error.find('\n'), std::string::npos);
@@ -109,35 +100,6 @@ TEST_F(OutsideResultsTest, CalibrationMovesPosesIntoCam0) {
   EXPECT_THAT(error, HasSubstr("has no line Tr:"));
   EXPECT_FALSE(ReadKittiCalibration(Write("c.txt", "Tr: 1 2\n"), &error));
   EXPECT_THAT(error, HasSubstr("Tr has 2 numbers"));
-}
-
-TEST_F(OutsideResultsTest, PairsComeBackByName) {
-  std::string error;
-  const auto pairs =
-      ReadPairPoses(Write("pairs.csv",
-                          "# pair, rows\n"
-                          "a.bin b.bin,1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,1\n"
-                          "\n"
-                          "00/7, 0 -1 0 1 1 0 0 2 0 0 1 3 0 0 0 1\r\n"),
-                    &error);
-  ASSERT_TRUE(pairs) << error;
-  ASSERT_EQ(pairs->size(), 2u);
-  EXPECT_EQ(pairs->at("a.bin b.bin").translation, Eigen::Vector3d(4, 5, 6));
-  EXPECT_NEAR(Yaw(pairs->at("00/7").rotation), M_PI / 2, 1e-12);
-}
-
-TEST_F(OutsideResultsTest, BadPairsAreNamed) {
-  const std::string good = "a,1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,1\n";
-  ExpectBadPairs("", "holds no pair");
-  ExpectBadPairs("# none\n", "holds no pair");
-  ExpectBadPairs(good + good, "line 2 has a pair that was there before");
-  ExpectBadPairs("1 0 0\n", "line 1 does not start with a pair and a comma");
-  ExpectBadPairs("a,1,2\n", "line 1 has 2 numbers after the pair");
-  ExpectBadPairs("a,1,0,0,4,0,1,0,5,0,0,1,inf,0,0,0,1\n",
-                 "number 12 is not a finite number");
-  ExpectBadPairs("a,1,0,0,4,0,1,0,5,0,0,1,6,0,0,0,2\n",
-                 "does not end with the row 0 0 0 1");
-  ExpectBadPairs("a,1,0,0,4,0,1,0,5,0,0,2,6,0,0,0,1\n", "is not a rotation");
 }
 
 std::vector<Rigid3> Line(int num_poses, double step) {

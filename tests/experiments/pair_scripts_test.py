@@ -128,6 +128,61 @@ class PairScriptsTest(unittest.TestCase):
         self.assertEqual(other.returncode, 2)
         self.assertIn("other flags", other.stderr)
 
+    def compare_outside(self, *texts, flags=()):
+        outside = [f"--outside=other{i}={self.write(f'other{i}.csv', text)}"
+                   for i, text in enumerate(texts)]
+        return self.run_script("compare_methods.py", f"--program={self.program}",
+                               f"--pairs={self.pairs}", *outside, *flags)
+
+    def test_results_of_other_programs_enter_the_table(self):
+        # a is 3 cm off by 12 numbers, b turned by 90 deg by 16; c shares no place with t.
+        turned = "0,-1,0,0,1,0,0,0,0,0,1,0,0,0,0,1"
+        a = "a.bin,t.bin,1,0,0,0.03,0,1,0,0,0,0,1,0\n"
+        run = self.compare_outside(
+            "source,target,m00\n# here\n" + a + f"\nb.bin,t.bin,{turned}\nc.bin,t.bin,{turned}\n",
+            "a.bin, t.bin, 1,0,0,0, 0,1,0,0, 0,0,1,0\n", flags=["--methods=whole"])
+        self.assertEqual(run.returncode, 0, run.stderr)
+        rows = [[cell.strip() for cell in line.strip("|\n").split("|")]
+                for line in run.stdout.splitlines()]
+        self.assertEqual([row[0] for row in rows[2:]], ["whole", "other0", "other1"])
+        self.assertEqual(rows[3][1:], ["3", "1", "1", "1", "2", "0.030 / 0.030", "0.00 / 0.00",
+                                       "-", "-", "-"])
+        # What is left out is no answer, and neither right nor wrong.
+        self.assertEqual(rows[4][1:6], ["1", "1", "1", "1", "0"])
+        # A file of all pairs serves a part of them.
+        part = self.compare_outside(a + f"c.bin,t.bin,{turned}\n", flags=["--exclude=two"])
+        self.assertEqual(part.returncode, 0, part.stderr)
+        self.assertIn("| other0 | 1 | 1 | 1 | 1 | 0 |", part.stdout)
+
+    def test_bad_results_of_other_programs_are_one_line(self):
+        good = "a.bin,t.bin,1,0,0,0,0,1,0,0,0,0,1,0"
+        for text, problem in (
+                ("", "there are no pairs"),
+                (f"{good}\n\n{good}\n", "line 3: the pair a.bin,t.bin was there before"),
+                ("t.bin,a.bin" + good[11:], "line 1: no pair t.bin,a.bin is in the list"),
+                ("0" + good[11:], "line 1: no pair 0,1 is in the list"),
+                (good + ",0", "line 1 has 13 numbers after source and target, must have 12 or 16"),
+                ("a.bin,t.bin", "line 1 has 0 numbers"),
+                (good[:-1] + "nan", "line 1 number 12 is 'nan', must be finite"),
+                (good[:-1] + "x", "line 1 number 12 is 'x'"),
+                (good[:-3] + "1.01,0", "is not a rotation"),
+                (good[:-3] + "-1,0", "is not a rotation"),
+                ("a.bin,t.bin,1,0.002,0,0,0,1,0,0,0,0,1,0", "is not a rotation"),
+                (good + ",0,0,0,2", "does not end with the row 0 0 0 1")):
+            run = self.compare_outside(good + "\n", text)
+            self.assertEqual((run.returncode, run.stdout), (2, ""), text)
+            self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+            self.assertIn("other1.csv: ", run.stderr)
+            self.assertIn(problem, run.stderr)
+        # Six digits are enough of a rotation.
+        rounded = "a.bin,t.bin,0.707107,-0.707107,0,0,0.707107,0.707107,0,0,0,0,1,0"
+        self.assertEqual(self.compare_outside(rounded).returncode, 0)
+        for flag, problem in (("x.csv", "must be NAME=FILE.csv"), ("n=no.csv", "no.csv: No such")):
+            run = self.compare_outside(flags=[f"--outside={flag}"])
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), run.stderr)
+            self.assertIn(problem, run.stderr)
+        self.assertIn("neither --methods nor --outside", self.compare_outside().stderr)
+
     def test_wrong_pairs_are_of_different_places(self):
         pair = run_pairs.Pair
         pairs = [pair("s", "a", "b", None), pair("s", "c", "b", None), pair("s", "d", "e", None),

@@ -1,102 +1,120 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// features/fpfh.h against PCL's FPFH.
+// robust/ransac.h against PCL's, on the same matches.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #ifdef QUATRO_WITH_PCL
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
+#include <cstdint>
+#include <limits>
 
-#include "experiments/peers/pcl.h"
-#include "features/fpfh.h"
-#include "features/kd_tree.h"
-#include "features/normals.h"
+#include "experiments/methods.h"
+#include "experiments/peers/pcl_ransac.h"
+#include "robust/ransac.h"
+#include "tests/support/matched_problems.h"
+#include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
 namespace {
 
-constexpr double kRadius = 1.5;
+constexpr double kBound = 0.3;
+constexpr int kNumSeeds = 20;
 
-// Our pair features put together as PCL does: no histogram of the point's own,
-// neighbours weighted by one over the squared distance.
-Eigen::MatrixXf ComposeAsPclDoes(const Points& points,
-                                 const Points& normals,
-                                 const Neighborhoods& neighborhoods) {
-  const Eigen::Index n = points.cols();
-  const auto for_each_neighbor = [&](Eigen::Index i, const auto& visit) {
-    const auto row = static_cast<std::size_t>(i);
-    for (auto k = static_cast<std::size_t>(neighborhoods.row_begin[row]);
-         k < static_cast<std::size_t>(neighborhoods.row_begin[row + 1]);
-         ++k) {
-      const Eigen::Index j = neighborhoods.index[k];
-      if (j != i) visit(j, neighborhoods.squared_distance[k]);
-    }
-  };
-  Eigen::MatrixXf spfh = Eigen::MatrixXf::Zero(33, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for_each_neighbor(i, [&](Eigen::Index j, float) {
-      const auto feature = ComputePairFeature(points.col(i).cast<float>(),
-                                              normals.col(i).cast<float>(),
-                                              points.col(j).cast<float>(),
-                                              normals.col(j).cast<float>());
-      if (!feature) return;
-      for (int part = 0; part < 3; ++part) {
-        const int bin = static_cast<int>(((*feature)[part] + 1.0f) * 5.5f);
-        spfh(11 * part + std::clamp(bin, 0, 10), i) += 1.0f;
-      }
-    });
-    spfh.col(i) /= std::max(1.0f, spfh.col(i).head<11>().sum());
-  }
-  Eigen::MatrixXf fpfh = Eigen::MatrixXf::Zero(33, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for_each_neighbor(i, [&](Eigen::Index j, float squared_distance) {
-      fpfh.col(i) += spfh.col(j) / squared_distance;
-    });
-    for (int part = 0; part < 3; ++part) {
-      auto bins = fpfh.col(i).segment<11>(11 * part);
-      if (bins.sum() > 0.0f) bins *= 100.0f / bins.sum();
-    }
-  }
-  return fpfh;
+bool IsRight(const PoseSummary& summary, const KnownProblem& problem) {
+  return summary.IsUsable() &&
+         LargestDisplacement(*summary.target_from_source,
+                             problem.true_target_from_source,
+                             problem.source) <= kBound;
 }
 
-TEST(PclPeer, FpfhIsOursButForItsWeights) {
-  const Points points = RandomStreet(3000, 0.02, 1);
-  const KdTree tree(points);
-  const Neighborhoods neighborhoods = FindNeighborhoods(tree, kRadius, 1);
-  const Points normals =
-      EstimateNormals(points, neighborhoods, 0.9, Eigen::Vector3d::Zero(), 1);
-  const Eigen::MatrixXf pcl = ComputeFpfhByPcl(points, normals, kRadius);
-  const Eigen::MatrixXf composed =
-      ComposeAsPclDoes(points, normals, neighborhoods);
-  const Fpfh ours = ComputeFpfh(points, normals, neighborhoods, 1);
-
-  std::vector<float> composed_difference;
-  std::vector<float> our_difference;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    if (!pcl.col(i).allFinite() || normals.col(i).isZero(0.0)) continue;
-    composed_difference.push_back(
-        (pcl.col(i) - composed.col(i)).cwiseAbs().sum());
-    our_difference.push_back((pcl.col(i) - ours.col(i)).cwiseAbs().sum());
+TEST(PclPeer, OurRansacIsRightAtLeastAsOften) {
+  int num_ours = 0;
+  int num_theirs = 0;
+  for (const Eigen::Index num_inliers : {100, 40, 16, 10}) {
+    for (std::uint64_t seed = 0; seed < kNumSeeds; ++seed) {
+      const KnownProblem problem =
+          TurnedProblem(num_inliers, 200 - num_inliers, seed);
+      num_ours +=
+          IsRight(SolveRansac(problem.source, problem.target, {}), problem);
+      const PoseSummary theirs =
+          SolveByPclRansac(problem.source, problem.target, kBound, {});
+      num_theirs += IsRight(theirs, problem);
+      // Where both find most, they find the same.
+      if (num_inliers == 100) {
+        EXPECT_TRUE(IsRight(theirs, problem)) << "seed " << seed;
+      }
+    }
   }
-  ASSERT_GT(composed_difference.size(), 2500u);
-  const auto quantile = [](std::vector<float> values, double share) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(
-        share * static_cast<double>(values.size() - 1))];
+  EXPECT_GE(num_ours, num_theirs - 2);
+  EXPECT_GE(num_theirs, 2 * kNumSeeds);
+  RecordProperty("ours", num_ours);
+  RecordProperty("theirs", num_theirs);
+}
+
+// A sample of three alone is farther off.
+TEST(PclPeer, RansacEndsWithLeastSquares) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const KnownProblem problem = TurnedProblem(100, 100, seed);
+    const PoseSummary summary =
+        SolveByPclRansac(problem.source, problem.target, kBound, {});
+    ASSERT_TRUE(summary.IsUsable()) << summary.message;
+    EXPECT_LE(LargestDisplacement(*summary.target_from_source,
+                                  problem.true_target_from_source,
+                                  problem.source),
+              0.03)
+        << "seed " << seed;
+  }
+}
+
+TEST(PclPeer, RansacDependsOnTheSeedAlone) {
+  const KnownProblem problem = TurnedProblem(16, 184, 1);
+  PclRansacOptions options;
+  options.max_iterations = 50;  // Not enough: the draws show.
+  const auto solve = [&](std::uint64_t seed) {
+    options.seed = seed;
+    return SolveByPclRansac(problem.source, problem.target, 5.0, options);
   };
-  // Of 300. A feature on the edge of a bin may fall on either side.
-  EXPECT_LE(quantile(composed_difference, 0.5), 0.5f);
-  EXPECT_LE(quantile(composed_difference, 0.95), 5.0f);
-  // The documented difference: visible, and no other descriptor.
-  EXPECT_GE(quantile(our_difference, 0.5), 2.0f);
-  EXPECT_LE(quantile(our_difference, 0.5), 60.0f);
+  const PoseSummary one = solve(1);
+  ASSERT_TRUE(one.IsUsable()) << one.message;
+  EXPECT_EQ(solve(1).target_from_source->ToMatrix(),
+            one.target_from_source->ToMatrix());
+  EXPECT_NE(solve(2).target_from_source->ToMatrix(),
+            one.target_from_source->ToMatrix());
+}
+
+TEST(PclPeer, RansacFarFromTheOriginKeepsItsDigits) {
+  KnownProblem problem = TurnedProblem(100, 100, 3);
+  const Eigen::Vector3d offset(5e6, -3e6, 100.0);
+  problem.source.colwise() += offset;
+  problem.target.colwise() += offset;
+  problem.true_target_from_source.translation +=
+      offset - problem.true_target_from_source.rotation * offset;
+  EXPECT_TRUE(IsRight(
+      SolveByPclRansac(problem.source, problem.target, kBound, {}), problem));
+}
+
+TEST(PclPeer, RansacSaysWhenThereIsNoAnswer) {
+  const KnownProblem problem = MakeInconsistentProblem(
+      {.num_inliers = 0, .num_outliers = 30}, kBound, 1);
+  for (const Eigen::Index n : {0, 1, 2}) {
+    const PoseSummary summary = SolveByPclRansac(
+        problem.source.leftCols(n), problem.target.leftCols(n), kBound, {});
+    EXPECT_FALSE(summary.IsUsable()) << n;
+    EXPECT_EQ(summary.termination, PoseTermination::kInsufficient);
+  }
+  const Points same = Points::Ones(3, 10);
+  EXPECT_FALSE(SolveByPclRansac(same, same, kBound, {}).IsUsable());
+  Points broken = problem.source;
+  broken(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(SolveByPclRansac(broken, problem.target, kBound, {}).termination,
+            PoseTermination::kInvalidInput);
+}
+
+TEST(PclPeer, RansacIsInTheRegistry) {
+  EXPECT_THAT(MethodNames(), ::testing::Contains("pcl_ransac"));
 }
 
 }  // namespace
@@ -104,7 +122,7 @@ TEST(PclPeer, FpfhIsOursButForItsWeights) {
 
 #else
 
-TEST(PclPeer, FpfhIsOursButForItsWeights) {
+TEST(PclPeer, OurRansacIsRightAtLeastAsOften) {
   GTEST_SKIP() << "needs a build with -DQUATRO_WITH_PCL=ON";
 }
 

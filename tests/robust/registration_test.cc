@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "features/fpfh.h"
+#include "features/kd_tree.h"
 #include "solvers/gravity.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
@@ -164,6 +166,29 @@ TEST_F(RegistrationTest, AnotherSolverTakesThePlaceOfQuatro) {
   EXPECT_EQ(summary.verdict.status, Status::kInsufficient);
   EXPECT_EQ(summary.verdict.reason, "not today");
   EXPECT_EQ(summary.verdict.num_matches, summary.matched_source.cols());
+}
+
+TEST_F(RegistrationTest, AnotherDescriptorTakesThePlaceOfFpfh) {
+  const RegistrationSummary expected = Register(source_, target_, options_);
+  int num_calls = 0;
+  options_.front_end.describe = [&](const Points& points,
+                                    const Points& normals,
+                                    double radius) {
+    ++num_calls;
+    EXPECT_EQ(radius, options_.front_end.fpfh_radius);
+    const KdTree tree(points);
+    return ComputeFpfh(points, normals, FindNeighborhoods(tree, radius, 1), 1);
+  };
+  ExpectSameBits(Register(source_, target_, options_), expected);
+  EXPECT_EQ(num_calls, 2);
+
+  options_.front_end.describe =
+      [](const Points& points, const Points&, double) -> Fpfh {
+    return Fpfh::Zero(kFpfhSize, points.cols());
+  };
+  const RegistrationSummary none = Register(source_, target_, options_);
+  EXPECT_EQ(none.num_mutual_matches, 0);
+  EXPECT_EQ(none.verdict.status, Status::kInsufficient);
 }
 
 // The source is rolled by 12 deg and pitched by -5 deg, the target by -3 deg.
