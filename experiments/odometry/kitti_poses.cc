@@ -3,7 +3,6 @@
 
 #include "experiments/odometry/kitti_poses.h"
 
-#include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cstdio>
@@ -18,19 +17,6 @@ namespace {
 using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
 constexpr double kMaxDeviation = 1e-3;
-
-// The nearest rigid motion; nullopt if the left block is farther from any.
-std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix) {
-  const Eigen::Matrix3d block = matrix.leftCols<3>();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      block, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  if (!matrix.allFinite() || rotation.determinant() < 0.0 ||
-      !((block - rotation).cwiseAbs().maxCoeff() <= kMaxDeviation)) {
-    return std::nullopt;
-  }
-  return Rigid3{rotation, matrix.col(3)};
-}
 
 // The 12 numbers from `first` on, or an empty optional with a reason.
 std::optional<Rigid3> ParseRows(const std::vector<std::string_view>& fields,
@@ -57,6 +43,18 @@ std::optional<Rigid3> ParseRows(const std::vector<std::string_view>& fields,
 }
 
 }  // namespace
+
+std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix) {
+  const Eigen::Matrix3d block = matrix.leftCols<3>();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      block, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
+  if (!matrix.allFinite() || rotation.determinant() < 0.0 ||
+      !((block - rotation).cwiseAbs().maxCoeff() <= kMaxDeviation)) {
+    return std::nullopt;
+  }
+  return Rigid3{rotation, matrix.col(3)};
+}
 
 std::optional<std::vector<Rigid3>> ReadKittiPoses(const std::string& path,
                                                   std::string* error) {

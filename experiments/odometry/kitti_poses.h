@@ -16,6 +16,7 @@
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_KITTI_POSES_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_KITTI_POSES_H_
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@
 #include "solvers/rigid3.h"
 
 namespace quatro {
+
+// The nearest rigid motion; nullopt if the left block is more than 1e-3 from
+// any rotation.
+std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix);
 
 // Strict: nullopt and one line in *error, which names file, line and reason,
 // for anything else than 12 finite numbers a line that make a rigid motion.
