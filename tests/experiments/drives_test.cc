@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "experiments/city.h"
+#include "experiments/kitti_layout.h"
 #include "experiments/lidar.h"
 #include "features/file.h"
 #include "features/kd_tree.h"
