@@ -118,49 +118,6 @@ std::vector<NamedSolver> SolversAt(double noise_bound) {
 
 }  // namespace
 
-std::string FormatTable(const Table& table) {
-  std::vector<std::size_t> width;
-  for (const std::string& column : table.columns)
-    width.push_back(column.size());
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      width[i] = std::max(width[i], row[i].size());
-    }
-  }
-  std::string text;
-  const auto add = [&](const std::vector<std::string>& row) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(width[i] - row[i].size(), ' ');
-      // The first column holds names.
-      text += i == 0 ? row[i] + padding : "  " + padding + row[i];
-    }
-    text += '\n';
-  };
-  add(table.columns);
-  for (const auto& row : table.rows) add(row);
-  return text;
-}
-
-std::string FormatCsv(const Table& table) {
-  std::string text;
-  const auto add = [&](const std::vector<std::string>& row) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (i > 0) text += ',';
-      if (row[i].find_first_of(",\"\n") == std::string::npos) {
-        text += row[i];
-        continue;
-      }
-      text += '"';
-      for (const char c : row[i]) text += c == '"' ? "\"\"" : std::string(1, c);
-      text += '"';
-    }
-    text += '\n';
-  };
-  add(table.columns);
-  for (const auto& row : table.rows) add(row);
-  return text;
-}
-
 Table TabulateSurrogates() {
   Table table{{"mu", "residual", "loss"}, {}};
   const auto add = [&](const std::string& name, double mu) {

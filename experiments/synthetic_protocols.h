@@ -6,19 +6,10 @@
 #define QUATRO_EXPERIMENTS_SYNTHETIC_PROTOCOLS_H_
 
 #include <functional>
-#include <string>
-#include <vector>
+
+#include "experiments/tables/table.h"
 
 namespace quatro {
-
-struct Table {
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-};
-
-// Columns under each other, numbers to the right.
-std::string FormatTable(const Table& table);
-std::string FormatCsv(const Table& table);
 
 // Called with the problems solved so far and in all.
 using Progress = std::function<void(int num_done, int num_problems)>;

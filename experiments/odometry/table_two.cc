@@ -10,36 +10,11 @@
 #include <utility>
 
 #include "experiments/odometry/kitti_poses.h"
+#include "experiments/tables/latex.h"
+#include "experiments/tables/published_figures.h"
 
 namespace quatro {
 namespace {
-
-struct Quoted {
-  const char* method;
-  int interval;
-  double translation_percent;
-  double rotation_deg_per_100m;
-};
-
-constexpr Quoted kQuoted[] = {
-    {"ICP", 1, 6.88, 2.99},           {"ICP", 3, 21.92, 8.70},
-    {"ICP", 5, 21.14, 8.51},          {"G-ICP", 1, 1.26, 0.45},
-    {"G-ICP", 3, 5.50, 1.45},         {"G-ICP", 5, 14.20, 3.32},
-    {"VG-ICP", 1, 1.03, 0.30},        {"VG-ICP", 3, 11.83, 1.65},
-    {"VG-ICP", 5, 19.11, 6.32},       {"FGR", 1, 2.73, 0.69},
-    {"FGR", 3, 7.17, 1.58},           {"FGR", 5, 14.66, 4.12},
-    {"TEASER++", 1, 2.11, 0.91},      {"TEASER++", 3, 2.64, 1.11},
-    {"TEASER++", 5, 3.19, 0.91},      {"Quatro", 1, 1.45, 0.41},
-    {"Quatro", 3, 1.38, 0.24},        {"Quatro", 5, 1.94, 0.46},
-    {"SUMA", 1, 0.68, 0.23},          {"SUMA", 3, 1.69, 0.61},
-    {"SUMA", 5, 2.36, 0.51},          {"A-LOAM", 1, 0.70, 0.27},
-    {"A-LOAM", 3, 0.97, 0.38},        {"A-LOAM", 5, 31.16, 12.10},
-    {"LO-Net", 1, 1.47, 0.72},        {"LO-Net+M", 1, 0.78, 0.42},
-    {"DMLO", 1, 0.83, 0.44},          {"DMLO+M", 1, 0.73, 0.44},
-    {"StickyPillars", 1, 0.65, 0.26}, {"StickyPillars", 3, 0.79, 0.31},
-    {"StickyPillars", 5, 1.29, 0.48}, {"Quatro-c2f", 1, 0.65, 0.21},
-    {"Quatro-c2f", 3, 0.67, 0.21},    {"Quatro-c2f", 5, 0.67, 0.21},
-};
 
 const char* OriginName(DriftOrigin origin) {
   switch (origin) {
@@ -53,6 +28,39 @@ const char* OriginName(DriftOrigin origin) {
   return "quoted";
 }
 
+std::set<int> IntervalsOf(const std::vector<DriftEntry>& entries) {
+  std::set<int> intervals;
+  for (const DriftEntry& entry : entries) intervals.insert(entry.interval);
+  return intervals;
+}
+
+// In the order in which they first come.
+std::vector<std::pair<std::string, DriftOrigin>> RowsOf(
+    const std::vector<DriftEntry>& entries) {
+  std::vector<std::pair<std::string, DriftOrigin>> rows;
+  for (const DriftEntry& entry : entries) {
+    const std::pair key(entry.method, entry.origin);
+    if (std::find(rows.begin(), rows.end(), key) == rows.end()) {
+      rows.push_back(key);
+    }
+  }
+  return rows;
+}
+
+// Null if there is none.
+const DriftEntry* Find(const std::vector<DriftEntry>& entries,
+                       const std::string& method,
+                       DriftOrigin origin,
+                       int interval) {
+  for (const DriftEntry& entry : entries) {
+    if (entry.method == method && entry.origin == origin &&
+        entry.interval == interval) {
+      return &entry;
+    }
+  }
+  return nullptr;
+}
+
 std::string Number(double value, int digits) {
   if (!std::isfinite(value)) return "-";
   char text[64];
@@ -64,7 +72,7 @@ std::string Number(double value, int digits) {
 
 std::vector<DriftEntry> QuotedTableTwo() {
   std::vector<DriftEntry> entries;
-  for (const Quoted& quoted : kQuoted) {
+  for (const PublishedDrift& quoted : PublishedTableTwo()) {
     DriftEntry entry;
     entry.method = quoted.method;
     entry.interval = quoted.interval;
@@ -107,15 +115,7 @@ std::optional<DriftEntry> DriftOfPoseFile(const std::string& method,
 }
 
 Table MakeTableTwo(const std::vector<DriftEntry>& entries) {
-  std::set<int> intervals;
-  std::vector<std::pair<std::string, DriftOrigin>> rows;
-  for (const DriftEntry& entry : entries) {
-    intervals.insert(entry.interval);
-    const std::pair key(entry.method, entry.origin);
-    if (std::find(rows.begin(), rows.end(), key) == rows.end()) {
-      rows.push_back(key);
-    }
-  }
+  const auto intervals = IntervalsOf(entries);
   Table table;
   table.columns = {"method", "origin"};
   for (const int interval : intervals) {
@@ -125,15 +125,11 @@ Table MakeTableTwo(const std::vector<DriftEntry>& entries) {
     table.columns.push_back("lost" + at);
     table.columns.push_back("ms" + at);
   }
-  for (const auto& [method, origin] : rows) {
+  for (const auto& [method, origin] : RowsOf(entries)) {
     std::vector<std::string> row = {method, OriginName(origin)};
     for (const int interval : intervals) {
-      const auto found =
-          std::find_if(entries.begin(), entries.end(), [&](const auto& entry) {
-            return entry.method == method && entry.origin == origin &&
-                   entry.interval == interval;
-          });
-      if (found == entries.end()) {
+      const DriftEntry* const found = Find(entries, method, origin, interval);
+      if (!found) {
         row.insert(row.end(), 4, "-");
         continue;
       }
@@ -147,6 +143,33 @@ Table MakeTableTwo(const std::vector<DriftEntry>& entries) {
     table.rows.push_back(row);
   }
   return table;
+}
+
+Table MakeDriftTable(const std::vector<DriftEntry>& entries) {
+  const auto intervals = IntervalsOf(entries);
+  Table table;
+  table.columns = {"method", "origin"};
+  for (const int interval : intervals) {
+    const std::string group = "interval " + std::to_string(interval) + " / ";
+    table.columns.push_back(group + "t_rel %");
+    table.columns.push_back(group + "r_rel deg/100m");
+  }
+  for (const auto& [method, origin] : RowsOf(entries)) {
+    std::vector<std::string> row = {method, OriginName(origin)};
+    for (const int interval : intervals) {
+      const DriftEntry* const found = Find(entries, method, origin, interval);
+      row.push_back(found ? Number(found->translation_percent, 2) : "-");
+      row.push_back(found ? Number(found->rotation_deg_per_100m, 2) : "-");
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+std::string FormatTableTwoLatex(const std::vector<DriftEntry>& entries) {
+  return FormatLatex(MakeDriftTable(entries),
+                     {.caption = "Drift of odometries at frame intervals.",
+                      .label = "tab:drift"});
 }
 
 }  // namespace quatro

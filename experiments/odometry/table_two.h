@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "experiments/metrics/kitti_metrics.h"
-#include "experiments/synthetic_protocols.h"
+#include "experiments/tables/table.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
@@ -50,6 +50,11 @@ std::optional<DriftEntry> DriftOfPoseFile(const std::string& method,
 // A row a method and origin, in the order in which they first come; a pair of
 // columns an interval.
 Table MakeTableTwo(const std::vector<DriftEntry>& entries);
+
+// The drift alone, as the paper has it, without what depends on the machine;
+// and that in LaTeX.
+Table MakeDriftTable(const std::vector<DriftEntry>& entries);
+std::string FormatTableTwoLatex(const std::vector<DriftEntry>& entries);
 
 }  // namespace quatro
 

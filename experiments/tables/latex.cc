@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/tables/latex.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <vector>
+
+namespace quatro {
+namespace {
+
+constexpr std::string_view kGroupMark = " / ";
+constexpr std::string_view kQuotedMark = "\\textdagger";
+constexpr std::string_view kFileMark = "\\textdaggerdbl";
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)); }
+
+std::string GroupOf(const std::string& column) {
+  const std::size_t at = column.find(kGroupMark);
+  return at == std::string::npos ? "" : column.substr(0, at);
+}
+
+std::string NameInGroup(const std::string& column) {
+  const std::size_t at = column.find(kGroupMark);
+  return at == std::string::npos ? column
+                                 : column.substr(at + kGroupMark.size());
+}
+
+// t_avg is t with an index.
+std::string Header(const std::string& name) {
+  if (name.size() < 3 || name[1] != '_' || !IsLetter(name[0])) {
+    return EscapeLatex(name);
+  }
+  std::size_t end = 2;
+  while (end < name.size() && IsLetter(name[end])) ++end;
+  return std::string("$") + name[0] + "_{\\mathrm{" + name.substr(2, end - 2) +
+         "}}$" + EscapeLatex(name.substr(end));
+}
+
+std::string Cell(const std::string& cell) {
+  return cell.empty() || cell == "-" ? "--" : EscapeLatex(cell);
+}
+
+std::string Joined(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) line += " & ";
+    line += cell;
+  }
+  return line + " \\\\\n";
+}
+
+// The line of groups, and the rules under them. Columns count from 1.
+std::string GroupLines(const std::vector<std::string>& columns) {
+  std::vector<std::string> cells;
+  std::string rules;
+  for (std::size_t i = 0, end = 0; i < columns.size(); i = end) {
+    const std::string group = GroupOf(columns[i]);
+    for (end = i + 1; end < columns.size(); ++end) {
+      if (group.empty() || GroupOf(columns[end]) != group) break;
+    }
+    if (group.empty()) {
+      cells.emplace_back();
+      continue;
+    }
+    cells.push_back("\\multicolumn{" + std::to_string(end - i) + "}{c}{" +
+                    EscapeLatex(group) + "}");
+    rules += "\\cmidrule(lr){" + std::to_string(i + 1) + "-" +
+             std::to_string(end) + "}";
+  }
+  return rules.empty() ? "" : Joined(cells) + rules + "\n";
+}
+
+}  // namespace
+
+std::string EscapeLatex(std::string_view text) {
+  std::string escaped;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    switch (c) {
+      case '\\':
+        escaped += "\\textbackslash{}";
+        break;
+      case '~':
+        escaped += "\\textasciitilde{}";
+        break;
+      case '^':
+        escaped += "\\textasciicircum{}";
+        break;
+      case '<':
+        escaped += "\\textless{}";
+        break;
+      case '>':
+        escaped += "\\textgreater{}";
+        break;
+      case '|':
+        escaped += "\\textbar{}";
+        break;
+      case '"':
+        escaped += "\\textquotedbl{}";
+        break;
+      case '&':
+      case '%':
+      case '$':
+      case '#':
+      case '_':
+      case '{':
+      case '}':
+        escaped += '\\';
+        escaped += c;
+        break;
+      case '\n':
+      case '\r':
+        escaped += ' ';
+        break;
+      case '-':
+        escaped += i > 0 && i + 1 < text.size() && IsDigit(text[i - 1]) &&
+                           IsDigit(text[i + 1])
+                       ? "--"
+                       : "-";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string FormatLatex(const Table& table, const LatexOptions& options) {
+  std::vector<std::string> columns = table.columns;
+  const auto origin = std::find(columns.begin(), columns.end(), "origin");
+  const bool has_origin = origin != columns.end();
+  const auto at = origin - columns.begin();
+  if (has_origin) columns.erase(origin);
+
+  std::vector<std::string> names;
+  for (const std::string& column : columns) {
+    names.push_back(Header(NameInGroup(column)));
+  }
+  std::string body;
+  bool has_quoted = false;
+  bool has_file = false;
+  for (std::vector<std::string> row : table.rows) {
+    std::string mark;
+    if (has_origin) {
+      const std::string text = row[static_cast<std::size_t>(at)];
+      row.erase(row.begin() + at);
+      if (text == "quoted") mark = kQuotedMark;
+      if (text == "file") mark = kFileMark;
+      has_quoted = has_quoted || text == "quoted";
+      has_file = has_file || text == "file";
+    }
+    for (std::string& cell : row) cell = Cell(cell);
+    if (!row.empty() && !mark.empty()) row[0] += "\\," + mark;
+    body += Joined(row);
+  }
+
+  std::string latex = "\\begin{table}\n\\centering\n";
+  if (!options.caption.empty()) {
+    latex += "\\caption{" + EscapeLatex(options.caption) + "}\n";
+  }
+  if (!options.label.empty()) latex += "\\label{" + options.label + "}\n";
+  latex += "\\begin{tabular}{l" +
+           std::string(columns.empty() ? 0 : columns.size() - 1, 'r') +
+           "}\n\\toprule\n" + GroupLines(columns) + Joined(names) +
+           "\\midrule\n" + body + "\\bottomrule\n\\end{tabular}\n";
+  if (has_quoted) {
+    latex += "\\par\\smallskip\\footnotesize " + std::string(kQuotedMark) +
+             "\\," + EscapeLatex(options.quoted_note) + "\n";
+  }
+  if (has_file) {
+    latex += "\\par\\smallskip\\footnotesize " + std::string(kFileMark) +
+             "\\,From poses in a file, of another program.\n";
+  }
+  return latex + "\\end{table}\n";
+}
+
+}  // namespace quatro

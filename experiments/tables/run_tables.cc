@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/tables/run_tables.h"
+
+#include <utility>
+
+#include "experiments/tables/curve_tables.h"
+#include "experiments/tables/error_table.h"
+#include "experiments/tables/latex.h"
+#include "experiments/tables/success_table.h"
+#include "experiments/tables/summary_table.h"
+#include "experiments/tables/timing_table.h"
+
+namespace quatro {
+namespace {
+
+std::vector<PairResult> OfTableThree(const std::vector<PairResult>& results) {
+  std::vector<PairResult> chosen;
+  for (const char* const bin : {"0-2 m", "4-6 m", "8-10 m"}) {
+    const auto of_bin = SelectResults(results, std::nullopt, "06", bin);
+    chosen.insert(chosen.end(), of_bin.begin(), of_bin.end());
+  }
+  return chosen;
+}
+
+bool IsOfAFigure(const std::string& name) {
+  return name == "recall" || name == "tilt";
+}
+
+}  // namespace
+
+std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
+                                    const TableOptions& options) {
+  TableOptions plain = options;
+  plain.with_intervals = false;
+  plain.with_all_averages = false;
+  TableOptions wide = options;
+  wide.with_intervals = true;
+  wide.with_all_averages = true;
+  std::vector<RunTable> tables;
+  const auto add = [&](const std::string& name,
+                       const std::string& caption,
+                       const auto& make) {
+    RunTable table{name, caption, make(plain), make(wide)};
+    if (!table.table.rows.empty()) tables.push_back(std::move(table));
+  };
+
+  const auto once = WithoutRepeats(results);
+  const auto near = SelectDistance(once, 9.0, 12.0);
+  add("table_one",
+      "Success [%], pairs 9-12 m apart, within " + options.limits[0].Name() +
+          ".",
+      [&](const TableOptions& o) { return MakeSuccessTable(near, o); });
+  const auto three = OfTableThree(results);
+  add("table_three",
+      "Mean errors over all answers on sequence 06.",
+      [&](const TableOptions& o) { return MakeErrorTable(three, o); });
+  add("summary", "All methods on all pairs.", [&](const TableOptions& o) {
+    return MakeSummaryTable(once, o);
+  });
+  add("by_bin", "All methods by bin.", [&](const TableOptions& o) {
+    return MakeBinTable(results, o);
+  });
+  const auto methods = MethodsOf(once);
+  add("significance",
+      "Paired tests; p-values are not adjusted for their number.",
+      [&](const TableOptions& o) {
+        return MakeSignificanceTable(
+            once, methods.empty() ? "" : methods[0], o);
+      });
+  add("recall", "Recall [%] over the error allowed.", [&](const auto&) {
+    return once.empty() ? Table{} : MakeRecallTable(once);
+  });
+  add("tilt", "Relative roll-pitch and yaw of the pairs.", [&](const auto&) {
+    return MakeTiltTable(once);
+  });
+  add("timing", "Median time by stage.", [&](const TableOptions& o) {
+    return MakeTimingTable(once, o);
+  });
+  return tables;
+}
+
+std::vector<TableFile> FormatRunTables(const std::vector<RunTable>& tables) {
+  std::vector<TableFile> files;
+  for (const RunTable& table : tables) {
+    files.push_back({table.name + ".csv", FormatCsv(table.with_intervals)});
+    if (IsOfAFigure(table.name)) continue;
+    files.push_back({table.name + ".tex",
+                     FormatLatex(table.table,
+                                 {.caption = table.caption,
+                                  .label = "tab:" + table.name})});
+  }
+  return files;
+}
+
+}  // namespace quatro

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/tables/timing_table.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace quatro {
+namespace {
+
+constexpr double kMilliseconds = 1e3;
+
+bool IsFrontEnd(const std::string& stage) {
+  return stage == "voxels" || stage == "features" || stage == "matching";
+}
+
+std::vector<std::string> StagesOf(const std::vector<PairResult>& results) {
+  std::vector<std::string> stages;
+  for (const PairResult& result : results) {
+    for (const StageTime& time : result.stage_times) {
+      if (std::find(stages.begin(), stages.end(), time.stage) == stages.end()) {
+        stages.push_back(time.stage);
+      }
+    }
+  }
+  return stages;
+}
+
+// Median over the pairs of the summed stages that `is_chosen`; nullopt if no
+// pair has one.
+template <typename IsChosen>
+std::optional<double> MedianOf(const std::vector<PairResult>& results,
+                               const IsChosen& is_chosen) {
+  std::vector<double> sums;
+  bool has_any = false;
+  for (const PairResult& result : results) {
+    double sum = 0.0;
+    for (const StageTime& time : result.stage_times) {
+      if (!is_chosen(time.stage)) continue;
+      has_any = true;
+      sum += time.seconds;
+    }
+    sums.push_back(sum);
+  }
+  return has_any ? Median(sums) : std::nullopt;
+}
+
+}  // namespace
+
+Table MakeTimingTable(const std::vector<PairResult>& results,
+                      const TableOptions& options) {
+  const auto stages = StagesOf(results);
+  Table table;
+  table.columns = {"method", "pairs"};
+  for (const std::string& stage : stages) {
+    table.columns.push_back("stage ms / " + stage);
+  }
+  table.columns.push_back("sum ms / front end");
+  table.columns.push_back("sum ms / rest");
+  AddColumns("sum ms / total", options, &table.columns);
+  for (const std::string& method : MethodsOf(results)) {
+    std::vector<PairResult> timed;
+    std::vector<double> totals;
+    for (const PairResult& result : results) {
+      if (result.method != method || !IsReadable(result)) continue;
+      timed.push_back(result);
+      totals.push_back(result.total_seconds);
+    }
+    std::vector<std::string> row = {method, std::to_string(timed.size())};
+    const auto add = [&](const std::optional<double>& seconds) {
+      row.push_back(seconds ? NumberCell(kMilliseconds * *seconds, 2) : "");
+    };
+    for (const std::string& stage : stages) {
+      add(MedianOf(timed, [&](const std::string& s) { return s == stage; }));
+    }
+    add(MedianOf(timed, IsFrontEnd));
+    add(MedianOf(timed, [](const std::string& s) { return !IsFrontEnd(s); }));
+    AddCells(Median(totals),
+             BootstrapMedian(totals, options.bootstrap),
+             kMilliseconds,
+             2,
+             options,
+             &row);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace quatro
