@@ -22,6 +22,8 @@ template <int kBytes>
 struct Lanes {
   typedef float Float __attribute__((vector_size(kBytes), may_alias));
   typedef std::int32_t Int __attribute__((vector_size(kBytes), may_alias));
+  typedef double Double __attribute__((vector_size(kBytes), may_alias));
+  typedef std::int64_t Long __attribute__((vector_size(kBytes), may_alias));
   static constexpr int kNumPieces = 64 / kBytes;
   static constexpr int kPieceLanes = kBytes / 4;
 };

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "features/matching.h"
-#include "features/simd.h"
 #include "features/tuple_test.h"
 
 #include <gmock/gmock.h>
@@ -17,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "features/simd.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
