@@ -9,7 +9,9 @@
 #include <nanoflann.hpp>
 #include <utility>
 
+#include "features/cell_neighborhoods.h"
 #include "features/parallel.h"
+#include "features/simd.h"
 
 namespace quatro {
 namespace {
@@ -97,6 +99,10 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
 Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads) {
+  if (auto found = FindNeighborhoodsByCells(
+          tree.points(), radius, num_threads, BestSimdLevel())) {
+    return *std::move(found);
+  }
   const Eigen::Index n = tree.points().cols();
   std::vector<std::vector<Neighbor>> rows(static_cast<std::size_t>(n));
   ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {

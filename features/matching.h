@@ -4,7 +4,9 @@
 //
 // (i, j) match iff j is the nearest to i among the target's descriptors and i
 // the nearest to j among the source's; of equal distances the lower index wins.
-// All-zero descriptors match nothing.
+// All-zero descriptors match nothing, nor do those at a distance that single
+// precision does not hold. Distances are equation (1) of
+// features/descriptor_index.h, to the last bit.
 
 #ifndef QUATRO_FEATURES_MATCHING_H_
 #define QUATRO_FEATURES_MATCHING_H_
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "features/fpfh.h"
+#include "features/simd.h"
 
 namespace quatro {
 
@@ -26,6 +29,12 @@ struct Match {
 std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       const Fpfh& target,
                                       int num_threads);
+
+// The same by one instruction set, no more than BestSimdLevel().
+std::vector<Match> MatchMutualNearest(const Fpfh& source,
+                                      const Fpfh& target,
+                                      int num_threads,
+                                      SimdLevel level);
 
 }  // namespace quatro
 

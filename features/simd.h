@@ -6,6 +6,10 @@
 // All paths give the same bits: contraction into fused multiply-add is off for
 // the whole library (third_party/target.cmake), and a loop so marked must not
 // reduce floating-point numbers across lanes.
+//
+// Either the compiler chooses (QUATRO_SIMD_CLONES, for plain loops), or the
+// caller does, by SimdLevel, for code written in features/lanes.h; tests then
+// take each path in turn.
 
 #ifndef QUATRO_FEATURES_SIMD_H_
 #define QUATRO_FEATURES_SIMD_H_
@@ -29,5 +33,29 @@
 #else
 #define QUATRO_SIMD_INLINE inline __attribute__((always_inline))
 #endif
+
+// A function for one level alone, to be called only where it is supported.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
+#define QUATRO_SIMD_AVX2 __attribute__((target("arch=x86-64-v3")))
+#define QUATRO_SIMD_AVX512 __attribute__((target("arch=x86-64-v4")))
+#else
+#define QUATRO_SIMD_AVX2
+#define QUATRO_SIMD_AVX512
+#endif
+
+namespace quatro {
+
+enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
+
+// What this machine and this build have.
+inline SimdLevel BestSimdLevel() {
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
+  if (__builtin_cpu_supports("x86-64-v4")) return SimdLevel::kAvx512;
+  if (__builtin_cpu_supports("x86-64-v3")) return SimdLevel::kAvx2;
+#endif
+  return SimdLevel::kBaseline;
+}
+
+}  // namespace quatro
 
 #endif  // QUATRO_FEATURES_SIMD_H_

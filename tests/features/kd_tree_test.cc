@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "features/cell_neighborhoods.h"
+#include "features/simd.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -252,6 +254,49 @@ TEST(FindNeighborhoods, RowsAreTheBallsAboutEachPoint) {
       }
     }
   }
+}
+
+TEST(FindNeighborhoodsByCells, IsTheSameByAnyInstructions) {
+  for (const auto& [name, points] : Clouds()) {
+    SCOPED_TRACE(name);
+    const KdTree tree(points);
+    for (const double radius : {0.01, 0.1, 1.0}) {
+      for (const SimdLevel level :
+           {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+        if (level > BestSimdLevel()) continue;
+        const auto rows = FindNeighborhoodsByCells(points, radius, 1, level);
+        ASSERT_TRUE(rows);
+        for (Eigen::Index i = 0; i < points.cols(); ++i) {
+          const auto row = tree.WithinRadius(points.col(i), radius);
+          auto k = static_cast<std::size_t>(
+              rows->row_begin[static_cast<std::size_t>(i)]);
+          ASSERT_EQ(rows->row_begin[static_cast<std::size_t>(i + 1)],
+                    static_cast<std::int64_t>(k + row.size()));
+          for (const Neighbor& neighbor : row) {
+            ASSERT_EQ(rows->index[k], neighbor.index);
+            ASSERT_EQ(rows->squared_distance[k],
+                      static_cast<float>(neighbor.squared_distance));
+            ++k;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(FindNeighborhoodsByCells, CloudsWiderThanItsCellsAreLeftToTheTree) {
+  Points points = RandomPoints(50, 1.0, 1);
+  const auto by_cells = [&](double radius) {
+    return FindNeighborhoodsByCells(points, radius, 1, SimdLevel::kBaseline);
+  };
+  EXPECT_TRUE(by_cells(1.0));
+  EXPECT_FALSE(by_cells(0.0));
+  points(1, 7) = 2e6;
+  EXPECT_TRUE(by_cells(2.0));
+  EXPECT_FALSE(by_cells(1.0));
+  const Neighborhoods rows = FindNeighborhoods(KdTree(points), 1.0, 1);
+  EXPECT_EQ(rows.row_begin[8] - rows.row_begin[7], 1);
+  EXPECT_GT(rows.index.size(), 200u);
 }
 
 TEST(FindNeighborhoods, DoesNotDependOnTheNumberOfThreads) {

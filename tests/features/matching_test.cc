@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "features/simd.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -82,7 +83,89 @@ std::vector<Match> BruteForceMatches(const Fpfh& source, const Fpfh& target) {
   return matches;
 }
 
-// Sizes about the multiples of 4 queries and 16 targets.
+// The same by single precision, term by term: matches of whatever is finite,
+// and of equal sums the lower index, are to be those to the last bit.
+std::vector<int> SinglePrecisionNearest(const Fpfh& queries,
+                                        const Fpfh& targets) {
+  const auto is_descriptor = [](const auto& x) {
+    return !x.isZero(0.0f) && x.allFinite();
+  };
+  std::vector<int> nearest;
+  for (const auto query : queries.colwise()) {
+    float least = std::numeric_limits<float>::infinity();
+    nearest.push_back(-1);
+    if (!is_descriptor(query)) continue;
+    for (int j = 0; j < targets.cols(); ++j) {
+      if (!is_descriptor(targets.col(j))) continue;
+      float sum = 0.0f;
+      for (int d = 0; d < kFpfhSize; ++d) {
+        const float difference = targets(d, j) - query[d];
+        sum += difference * difference;
+      }
+      if (sum < least) {
+        least = sum;
+        nearest.back() = j;
+      }
+    }
+  }
+  return nearest;
+}
+
+std::vector<Match> SinglePrecisionMatches(const Fpfh& source,
+                                          const Fpfh& target) {
+  const std::vector<int> target_of = SinglePrecisionNearest(source, target);
+  const std::vector<int> source_of = SinglePrecisionNearest(target, source);
+  std::vector<Match> matches;
+  for (int i = 0; i < source.cols(); ++i) {
+    const int j = target_of[static_cast<std::size_t>(i)];
+    if (j >= 0 && source_of[static_cast<std::size_t>(j)] == i) {
+      matches.push_back({i, j});
+    }
+  }
+  return matches;
+}
+
+// As of surfaces: near one of a few kinds, along few directions, with copies
+// and with some that differ by little more than rounding.
+Fpfh ClusteredDescriptors(Eigen::Index n, std::uint64_t seed) {
+  const Fpfh kinds = RandomDescriptors(5, 100);
+  const Fpfh directions = RandomDescriptors(3, 101).array() - 50.0f;
+  Random random(seed);
+  Fpfh descriptors(kFpfhSize, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto last = static_cast<std::uint64_t>(std::max<Eigen::Index>(1, i));
+    auto x = descriptors.col(i);
+    if (i > 0 && random.Below(4) == 0) {
+      x = descriptors.col(static_cast<Eigen::Index>(random.Below(last)));
+      if (random.Below(2) == 0) x *= 1.0f + 1e-7f;
+      continue;
+    }
+    x = kinds.col(static_cast<Eigen::Index>(random.Below(5)));
+    for (int axis = 0; axis < 3; ++axis) {
+      x += static_cast<float>(random.Uniform()) * directions.col(axis);
+    }
+  }
+  return descriptors;
+}
+
+std::vector<SimdLevel> Levels() {
+  std::vector<SimdLevel> levels;
+  for (const SimdLevel level :
+       {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+    if (level <= BestSimdLevel()) levels.push_back(level);
+  }
+  return levels;
+}
+
+void ExpectSinglePrecisionMatches(const Fpfh& source, const Fpfh& target) {
+  const auto expected = SinglePrecisionMatches(source, target);
+  for (const SimdLevel level : Levels()) {
+    EXPECT_EQ(MatchMutualNearest(source, target, 1, level), expected)
+        << "level " << static_cast<int>(level);
+  }
+}
+
+// Sizes about the multiples of the 16 targets of a tile.
 constexpr Eigen::Index kSizes[] = {
     0, 1, 2, 3, 4, 5, 15, 16, 17, 31, 63, 64, 65, 130};
 
@@ -115,6 +198,44 @@ TEST(MatchMutualNearest, OfEqualDistancesTheLowerIndexWins) {
   }
   const Fpfh same = Fpfh::Ones(kFpfhSize, 50);
   EXPECT_THAT(MatchMutualNearest(same, same, 1), ElementsAre(Match{0, 0}));
+}
+
+TEST(MatchMutualNearest, IsSinglePrecisionToTheLastBitByAnyInstructions) {
+  // More than the 256 of a box, and fewer than in two.
+  for (const auto& [m, n] :
+       {std::pair{900, 700}, {700, 900}, {257, 300}, {30, 511}}) {
+    SCOPED_TRACE(m);
+    const Fpfh source = ClusteredDescriptors(m, 1);
+    const Fpfh target = ClusteredDescriptors(n, 2);
+    ExpectSinglePrecisionMatches(source, target);
+    EXPECT_GT(MatchMutualNearest(source, target, 1).size(), 10u);
+  }
+  ExpectSinglePrecisionMatches(TyingDescriptors(700, 1),
+                               TyingDescriptors(700, 2));
+  ExpectSinglePrecisionMatches(RandomDescriptors(500, 1),
+                               RandomDescriptors(500, 2));
+}
+
+TEST(MatchMutualNearest, SquaresMayVanishOrOverflow) {
+  const Fpfh source = ClusteredDescriptors(600, 1);
+  const Fpfh target = ClusteredDescriptors(500, 2);
+  for (const float scale :
+       {1e-40f, 1e-25f, 1e-22f, 1e-20f, 1e-10f, 1e10f, 1e14f, 1e17f, 1e30f}) {
+    SCOPED_TRACE(scale);
+    ExpectSinglePrecisionMatches(scale * source, scale * target);
+  }
+}
+
+TEST(MatchMutualNearest, WhatIsNotFiniteMatchesNothing) {
+  Fpfh source = ClusteredDescriptors(300, 1);
+  Fpfh target = ClusteredDescriptors(300, 2);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float bad : {nan, -nan, std::numeric_limits<float>::infinity()}) {
+    source(7, 10) = bad;
+    target(32, 11) = bad;
+    source.col(12).setConstant(bad);
+    ExpectSinglePrecisionMatches(source, target);
+  }
 }
 
 TEST(MatchMutualNearest, UndoesAPermutation) {

@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/cell_neighborhoods.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "features/lanes.h"
+#include "features/parallel.h"
+
+namespace quatro {
+namespace {
+
+// Cells may be so many on each axis that rounding keeps (1) if they are wider
+// than the radius by one part in a million.
+constexpr double kMaxCells = 1 << 20;
+constexpr double kWider = 1.0 + 1e-6;
+constexpr int kBitsPerAxis = 21;  // One more, for the neighbours of the last.
+
+struct Cell {
+  std::uint64_t key;
+  std::size_t begin, end;  // Of its points, in order of cells.
+};
+
+struct Cells {
+  std::vector<std::int32_t> order;  // Points, cell by cell.
+  std::vector<Cell> cells;          // In ascending order of keys.
+
+  // The points in those of three cells, one after the other along z, that are
+  // not empty.
+  std::pair<std::size_t, std::size_t> PointsInColumn(std::uint64_t key) const {
+    const auto first = std::lower_bound(
+        cells.begin(), cells.end(), key, [](const Cell& cell, auto wanted) {
+          return cell.key < wanted;
+        });
+    if (first == cells.end() || first->key > key + 2) return {0, 0};
+    auto last = first;
+    while (last + 1 != cells.end() && (last + 1)->key <= key + 2) ++last;
+    return {first->begin, last->end};
+  }
+};
+
+std::optional<Cells> MakeCells(const Points& points, double radius) {
+  Cells result;
+  const Eigen::Index n = points.cols();
+  if (n == 0) return result;
+  const Eigen::Vector3d low = points.rowwise().minCoeff();
+  const double extent = (points.rowwise().maxCoeff() - low).maxCoeff();
+  const double width = radius * kWider;
+  // An extent that overflows, or none of any radius, has no cells.
+  if (!(extent < kMaxCells * width && std::isfinite(extent))) {
+    return std::nullopt;
+  }
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keyed(
+      static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      // From 1, so that there is one below.
+      const auto cell = static_cast<std::uint64_t>(
+          (points(axis, i) - low[axis]) / width + 1.0);
+      key = key << kBitsPerAxis | cell;
+    }
+    keyed[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
+  }
+  std::sort(keyed.begin(), keyed.end());
+  result.order.reserve(keyed.size());
+  for (const auto& [key, i] : keyed) {
+    if (result.cells.empty() || result.cells.back().key != key) {
+      result.cells.push_back({key, result.order.size(), result.order.size()});
+    }
+    result.order.push_back(i);
+    result.cells.back().end = result.order.size();
+  }
+  return result;
+}
+
+// Ascending. By a row of bits where the indices are close together, as those of
+// a sampled cloud are.
+void Sort(std::vector<std::int32_t>* indices,
+          std::vector<std::uint64_t>* bits) {
+  const auto [least, largest] =
+      std::minmax_element(indices->begin(), indices->end());
+  const std::int32_t first = *least;
+  const auto num_words = static_cast<std::size_t>(*largest - first) / 64 + 1;
+  if (num_words > 8 * indices->size()) {
+    std::sort(indices->begin(), indices->end());
+    return;
+  }
+  bits->assign(num_words, 0);
+  for (const std::int32_t i : *indices) {
+    const auto at = static_cast<std::size_t>(i - first);
+    (*bits)[at / 64] |= std::uint64_t{1} << (at % 64);
+  }
+  std::size_t k = 0;
+  for (std::size_t w = 0; w < num_words; ++w) {
+    for (std::uint64_t word = (*bits)[w]; word != 0; word &= word - 1) {
+      (*indices)[k++] =
+          first + static_cast<std::int32_t>(w * 64) + std::countr_zero(word);
+    }
+  }
+}
+
+// Sixteen points that may be near.
+struct alignas(64) Block {
+  double x[kLanes], y[kLanes], z[kLanes];
+  std::int32_t index[kLanes];
+};
+
+// Rows of several points, one after the other.
+struct Rows {
+  std::vector<std::int32_t> index;
+  std::vector<float> squared_distance;
+  std::size_t size = 0;
+};
+
+// Those of the blocks' points within the radius of `query`, to the end of
+// *rows, which has room for all of them.
+template <int kBytes>
+QUATRO_SIMD_INLINE void Append(const std::vector<Block>& blocks,
+                               const double* query,
+                               double squared_radius,
+                               Rows* rows) {
+  using Double = typename Lanes<kBytes>::Double;
+  using Int = typename Lanes<kBytes>::Int;
+  constexpr int kDoubles = kBytes / 8;
+  std::int32_t* index = rows->index.data();
+  float* squared_distance = rows->squared_distance.data();
+  std::size_t size = rows->size;
+  for (const Block& block : blocks) {
+    alignas(64) double d2[kLanes];
+    Int passed = {};
+    for (int piece = 0; piece < kLanes / kDoubles; ++piece) {
+      const auto load = [piece](const double* from)
+                            __attribute__((always_inline))
+                                ->const Double& {
+        return reinterpret_cast<const Double*>(from)[piece];
+      };
+      const Double dx = query[0] - load(block.x);
+      const Double dy = query[1] - load(block.y);
+      const Double dz = query[2] - load(block.z);
+      const Double sum = dx * dx + dy * dy + dz * dz;
+      reinterpret_cast<Double*>(d2)[piece] = sum;
+      typename Lanes<kBytes>::Long weight;
+      for (int lane = 0; lane < kDoubles; ++lane) {
+        weight[lane] = 1 << (piece * kDoubles + lane);
+      }
+      passed |= reinterpret_cast<Int>((sum <= squared_radius) & weight);
+    }
+    for (auto bits = static_cast<std::uint32_t>(OrOf<kBytes>(passed));
+         bits != 0;
+         bits &= bits - 1) {
+      const int lane = std::countr_zero(bits);
+      index[size] = block.index[lane];
+      squared_distance[size] = static_cast<float>(d2[lane]);
+      ++size;
+    }
+  }
+  rows->size = size;
+}
+
+QUATRO_SIMD_AVX512 void AppendByAvx512(const std::vector<Block>& blocks,
+                                       const double* query,
+                                       double squared_radius,
+                                       Rows* rows) {
+  Append<64>(blocks, query, squared_radius, rows);
+}
+
+QUATRO_SIMD_AVX2 void AppendByAvx2(const std::vector<Block>& blocks,
+                                   const double* query,
+                                   double squared_radius,
+                                   Rows* rows) {
+  Append<32>(blocks, query, squared_radius, rows);
+}
+
+void Append(const std::vector<Block>& blocks,
+            const double* query,
+            double squared_radius,
+            SimdLevel level,
+            Rows* rows) {
+  const std::size_t most = rows->size + blocks.size() * kLanes;
+  if (most > rows->index.size()) {
+    rows->index.resize(2 * most);
+    rows->squared_distance.resize(2 * most);
+  }
+  switch (level) {
+    case SimdLevel::kAvx512:
+      return AppendByAvx512(blocks, query, squared_radius, rows);
+    case SimdLevel::kAvx2:
+      return AppendByAvx2(blocks, query, squared_radius, rows);
+    case SimdLevel::kBaseline:
+      break;
+  }
+  Append<16>(blocks, query, squared_radius, rows);
+}
+
+std::vector<Block> MakeBlocks(const Points& points,
+                              const std::vector<std::int32_t>& indices) {
+  std::vector<Block> blocks((indices.size() + kLanes - 1) / kLanes);
+  for (std::size_t k = 0; k < blocks.size() * kLanes; ++k) {
+    Block& block = blocks[k / kLanes];
+    const std::size_t lane = k % kLanes;
+    // What fills the last block is not a number, and so within no radius.
+    block.x[lane] = block.y[lane] = block.z[lane] = std::nan("");
+    if (k >= indices.size()) continue;
+    block.index[lane] = indices[k];
+    block.x[lane] = points(0, indices[k]);
+    block.y[lane] = points(1, indices[k]);
+    block.z[lane] = points(2, indices[k]);
+  }
+  return blocks;
+}
+
+}  // namespace
+
+std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
+                                                      double radius,
+                                                      int num_threads,
+                                                      SimdLevel level) {
+  const std::optional<Cells> cells = MakeCells(points, radius);
+  if (!cells) return std::nullopt;
+  const auto num_points = static_cast<std::size_t>(points.cols());
+  const auto num_cells = static_cast<Eigen::Index>(cells->cells.size());
+
+  // Rows in the order of cells, by pieces of so many.
+  constexpr Eigen::Index kPiece = 32;
+  std::vector<Rows> pieces(
+      static_cast<std::size_t>((num_cells + kPiece - 1) / kPiece));
+  std::vector<std::size_t> begin_in_piece(num_points);
+  Neighborhoods result;
+  result.row_begin.assign(num_points + 1, 0);
+  const auto find = [&](Eigen::Index begin, Eigen::Index end) {
+    Rows& rows = pieces[static_cast<std::size_t>(begin / kPiece)];
+    std::vector<std::int32_t> near;
+    std::vector<std::uint64_t> bits;
+    for (Eigen::Index c = begin; c < end; ++c) {
+      const Cell& cell = cells->cells[static_cast<std::size_t>(c)];
+      near.clear();
+      for (const std::uint64_t x : {0, 1, 2}) {
+        for (const std::uint64_t y : {0, 1, 2}) {
+          const std::uint64_t corner = (std::uint64_t{1} << 2 * kBitsPerAxis) +
+                                       (std::uint64_t{1} << kBitsPerAxis) + 1;
+          const auto [first, last] = cells->PointsInColumn(
+              cell.key - corner + (x << 2 * kBitsPerAxis) +
+              (y << kBitsPerAxis));
+          near.insert(near.end(),
+                      cells->order.data() + first,
+                      cells->order.data() + last);
+        }
+      }
+      Sort(&near, &bits);
+      const std::vector<Block> blocks = MakeBlocks(points, near);
+      for (std::size_t k = cell.begin; k < cell.end; ++k) {
+        const auto i = static_cast<std::size_t>(cells->order[k]);
+        begin_in_piece[i] = rows.size;
+        Append(blocks,
+               points.col(cells->order[k]).data(),
+               radius * radius,
+               level,
+               &rows);
+        result.row_begin[i + 1] =
+            static_cast<std::int64_t>(rows.size - begin_in_piece[i]);
+      }
+    }
+  };
+  ParallelFor(num_threads, num_cells, kPiece, find);
+
+  for (std::size_t i = 0; i < num_points; ++i) {
+    result.row_begin[i + 1] += result.row_begin[i];
+  }
+  result.index.resize(static_cast<std::size_t>(result.row_begin.back()));
+  result.squared_distance.resize(result.index.size());
+  const auto move = [&](Eigen::Index begin, Eigen::Index end) {
+    Rows& rows = pieces[static_cast<std::size_t>(begin / kPiece)];
+    const std::size_t first =
+        cells->cells[static_cast<std::size_t>(begin)].begin;
+    const std::size_t last =
+        cells->cells[static_cast<std::size_t>(end - 1)].end;
+    for (std::size_t k = first; k < last; ++k) {
+      const auto i = static_cast<std::size_t>(cells->order[k]);
+      const auto to = static_cast<std::size_t>(result.row_begin[i]);
+      const auto size = static_cast<std::size_t>(result.row_begin[i + 1]) - to;
+      std::copy_n(
+          rows.index.data() + begin_in_piece[i], size, &result.index[to]);
+      std::copy_n(rows.squared_distance.data() + begin_in_piece[i],
+                  size,
+                  &result.squared_distance[to]);
+    }
+    rows = Rows();
+  };
+  ParallelFor(num_threads, num_cells, kPiece, move);
+  return result;
+}
+
+}  // namespace quatro

@@ -1,0 +1,367 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/descriptor_index.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+namespace quatro {
+namespace {
+
+constexpr int kNumAxes = DescriptorAxes::kNumAxes;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::int32_t kNone = NearestDescriptor{}.index;
+
+using Tile = DescriptorIndex::Tile;
+using Boxes = DescriptorIndex::Boxes;
+using Coordinates = Eigen::Matrix<float, kNumAxes, Eigen::Dynamic>;
+using Corner = Eigen::Array<float, kNumAxes, 1>;
+
+bool IsDescriptor(const Fpfh& descriptors, Eigen::Index i) {
+  return !descriptors.col(i).isZero(0.0f) && descriptors.col(i).allFinite();
+}
+
+// Puts what is on one side of the widest axis before the rest, down to tiles;
+// full ones, and 16 of them to a box, but for the last.
+void SplitInHalves(const Coordinates& along,
+                   std::int32_t* begin,
+                   std::int32_t* end) {
+  const std::ptrdiff_t size = end - begin;
+  if (size <= kLanes) return;
+  Corner low = along.col(*begin);
+  Corner high = low;
+  for (const std::int32_t* i = begin + 1; i < end; ++i) {
+    low = low.min(along.col(*i).array());
+    high = high.max(along.col(*i).array());
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  constexpr std::ptrdiff_t kBoxSize = kLanes * kLanes;
+  const std::ptrdiff_t unit = size > kBoxSize ? kBoxSize : kLanes;
+  std::int32_t* middle = begin + (size / 2 + unit - 1) / unit * unit;
+  std::nth_element(begin, middle, end, [&](std::int32_t i, std::int32_t j) {
+    return along(axis, i) < along(axis, j);
+  });
+  SplitInHalves(along, begin, middle);
+  SplitInHalves(along, middle, end);
+}
+
+void SetBox(std::size_t at,
+            const Corner& low,
+            const Corner& high,
+            std::vector<Boxes>* boxes) {
+  for (int axis = 0; axis < kNumAxes; ++axis) {
+    (*boxes)[at / kLanes].low[axis].lane[at % kLanes] = low[axis];
+    (*boxes)[at / kLanes].high[axis].lane[at % kLanes] = high[axis];
+  }
+}
+
+// Boxes that nothing is near to.
+std::vector<Boxes> EmptyBoxes(std::size_t num) {
+  Boxes empty;
+  for (int axis = 0; axis < kNumAxes; ++axis) {
+    std::fill_n(empty.low[axis].lane, kLanes, kInfinity);
+    std::fill_n(empty.high[axis].lane, kLanes, kInfinity);
+  }
+  return std::vector<Boxes>((num + kLanes - 1) / kLanes, empty);
+}
+
+// One search, by registers of kBytes.
+template <int kBytes>
+class Search {
+ public:
+  QUATRO_SIMD_INLINE Search(const DescriptorIndex::Parts& parts,
+                            const float* descriptor,
+                            const float* coordinates,
+                            const NearestDescriptor& start,
+                            bool any)
+      : parts_(parts),
+        descriptor_(descriptor),
+        coordinates_(coordinates),
+        start_(start),
+        any_(any) {
+    for (int piece = 0; piece < kNumPieces; ++piece) {
+      best_[piece] = Float{} + start.squared_distance;
+      best_index_[piece] = Int{} + start.index;
+    }
+    SetLeast(start.squared_distance);
+  }
+
+  QUATRO_SIMD_INLINE void Run() {
+    // The nearest box first, so that most others need not be looked into.
+    std::size_t nearest_box = 0;
+    float nearest = kInfinity;
+    Float sum[kNumPieces];
+    for (std::size_t k = 0; k < parts_.large_boxes.size(); ++k) {
+      ToBoxes(parts_.large_boxes[k], sum);
+      const float least = LeastOf(sum);
+      if (!(least < nearest)) continue;
+      nearest = least;
+      nearest_box = k * kLanes + FirstOf(BitsNotAbove<kBytes>(sum, least));
+    }
+    if (nearest == kInfinity || LookInto(nearest_box)) return;
+    for (std::size_t k = 0; k < parts_.large_boxes.size(); ++k) {
+      ToBoxes(parts_.large_boxes[k], sum);
+      for (std::uint32_t bits = BitsNotAbove<kBytes>(sum, limit_); bits != 0;
+           bits &= bits - 1) {
+        const std::size_t box = k * kLanes + FirstOf(bits);
+        if (box != nearest_box && LookInto(box)) return;
+      }
+    }
+  }
+
+  QUATRO_SIMD_INLINE NearestDescriptor Result() const {
+    std::int32_t index = kNone;
+    for (int piece = 0; piece < kNumPieces; ++piece) {
+      for (int lane = 0; lane < Lanes<kBytes>::kPieceLanes; ++lane) {
+        if (best_[piece][lane] == least_) {
+          index = std::min<std::int32_t>(index, best_index_[piece][lane]);
+        }
+      }
+    }
+    return {least_, index};
+  }
+
+ private:
+  using Float = typename Lanes<kBytes>::Float;
+  using Int = typename Lanes<kBytes>::Int;
+  static constexpr int kNumPieces = Lanes<kBytes>::kNumPieces;
+
+  QUATRO_SIMD_INLINE static std::size_t FirstOf(std::uint32_t bits) {
+    return static_cast<std::size_t>(std::countr_zero(bits));
+  }
+
+  // Numbers >= 0 are ordered as their bits.
+  QUATRO_SIMD_INLINE static float LeastOf(const Float (&x)[kNumPieces]) {
+    Int least = reinterpret_cast<Int>(x[0]);
+    for (int piece = 1; piece < kNumPieces; ++piece) {
+      const Int bits = reinterpret_cast<Int>(x[piece]);
+      least = bits < least ? bits : least;
+    }
+    return std::bit_cast<float>(MinOf<kBytes>(least));
+  }
+
+  QUATRO_SIMD_INLINE void SetLeast(float squared_distance) {
+    least_ = squared_distance;
+    const float distance =
+        std::sqrt(least_) * (1.0f + 1e-5f) + parts_.margin;  // Equation (3).
+    // Squares may be rounded down to 0, and padding is at infinity.
+    limit_ = std::min(distance * distance + 1e-35f,
+                      std::numeric_limits<float>::max());
+  }
+
+  // Squared distances along the axes.
+  QUATRO_SIMD_INLINE void ToBoxes(const Boxes& boxes,
+                                  Float (&sum)[kNumPieces]) const {
+    const Float zero = {};
+    for (int piece = 0; piece < kNumPieces; ++piece) {
+      sum[piece] = zero;
+      for (int axis = 0; axis < kNumAxes; ++axis) {
+        const Float below =
+            Piece<kBytes>(boxes.low[axis], piece) - coordinates_[axis];
+        const Float above =
+            coordinates_[axis] - Piece<kBytes>(boxes.high[axis], piece);
+        const Float outer = below > above ? below : above;
+        const Float outside = outer > zero ? outer : zero;
+        sum[piece] += outside * outside;
+      }
+    }
+  }
+
+  // Equation (1), or the same along the axes.
+  template <int kSize>
+  QUATRO_SIMD_INLINE static void ToTile(const FloatRow (&rows)[kSize],
+                                        const float* query,
+                                        Float (&sum)[kNumPieces]) {
+    for (int piece = 0; piece < kNumPieces; ++piece) {
+      sum[piece] = Float{};
+      for (int d = 0; d < kSize; ++d) {
+        const Float difference = Piece<kBytes>(rows[d], piece) - query[d];
+        sum[piece] += difference * difference;
+      }
+    }
+  }
+
+  // Sixteen tiles. True if what is found is enough.
+  QUATRO_SIMD_INLINE bool LookInto(std::size_t box) {
+    Float sum[kNumPieces];
+    ToBoxes(parts_.tile_boxes[box], sum);
+    const Tile* chosen[kLanes];
+    int num_chosen = 0;
+    for (std::uint32_t bits = BitsNotAbove<kBytes>(sum, limit_); bits != 0;
+         bits &= bits - 1) {
+      const Tile& tile = parts_.tiles[box * kLanes + FirstOf(bits)];
+      ToTile(tile.along, coordinates_, sum);
+      chosen[num_chosen] = &tile;
+      num_chosen += BitsNotAbove<kBytes>(sum, limit_) != 0;
+    }
+    if (num_chosen == 0) return false;
+    for (int k = 0; k < num_chosen; ++k) LookAt(*chosen[k]);
+    const float least = LeastOf(best_);
+    if (least < least_) SetLeast(least);
+    return any_ &&
+           (least_ < start_.squared_distance || Result().index < start_.index);
+  }
+
+  QUATRO_SIMD_INLINE void LookAt(const Tile& tile) {
+    Float sum[kNumPieces];
+    ToTile(tile.bins, descriptor_, sum);
+    for (int piece = 0; piece < kNumPieces; ++piece) {
+      const Int index = Piece<kBytes>(tile.index, piece);
+      const Int is_nearer =
+          (sum[piece] < best_[piece]) |
+          ((sum[piece] == best_[piece]) & (index < best_index_[piece]));
+      best_[piece] = is_nearer ? sum[piece] : best_[piece];
+      best_index_[piece] = is_nearer ? index : best_index_[piece];
+    }
+  }
+
+  const DescriptorIndex::Parts& parts_;
+  const float* descriptor_;
+  const float* coordinates_;
+  NearestDescriptor start_;
+  bool any_;
+
+  Float best_[kNumPieces];  // On each lane.
+  Int best_index_[kNumPieces];
+  float least_;  // Of the lanes.
+  float limit_;  // Square of the right side of (3).
+};
+
+template <int kBytes>
+QUATRO_SIMD_INLINE NearestDescriptor Find(const DescriptorIndex::Parts& parts,
+                                          const float* descriptor,
+                                          const float* coordinates,
+                                          const NearestDescriptor& start,
+                                          bool any) {
+  Search<kBytes> search(parts, descriptor, coordinates, start, any);
+  search.Run();
+  return search.Result();
+}
+
+QUATRO_SIMD_AVX512 NearestDescriptor
+FindByAvx512(const DescriptorIndex::Parts& parts,
+             const float* descriptor,
+             const float* coordinates,
+             const NearestDescriptor& start,
+             bool any) {
+  return Find<64>(parts, descriptor, coordinates, start, any);
+}
+
+QUATRO_SIMD_AVX2 NearestDescriptor
+FindByAvx2(const DescriptorIndex::Parts& parts,
+           const float* descriptor,
+           const float* coordinates,
+           const NearestDescriptor& start,
+           bool any) {
+  return Find<32>(parts, descriptor, coordinates, start, any);
+}
+
+}  // namespace
+
+DescriptorAxes FindAxes(const Fpfh& a, const Fpfh& b) {
+  using Matrix = Eigen::Matrix<double, kFpfhSize, kFpfhSize>;
+  constexpr Eigen::Index kNumSamples = 1000;  // Of each.
+  DescriptorAxes axes;
+  Matrix products = Matrix::Zero();
+  Eigen::Matrix<double, kFpfhSize, 1> sum =
+      Eigen::Matrix<double, kFpfhSize, 1>::Zero();
+  float largest = 0.0f;  // Squared length.
+  int num = 0;
+  for (const Fpfh* side : {&a, &b}) {
+    const Eigen::Index step =
+        std::max<Eigen::Index>(1, side->cols() / kNumSamples);
+    for (Eigen::Index i = 0; i < side->cols(); ++i) {
+      if (!IsDescriptor(*side, i)) continue;
+      largest = std::max(largest, side->col(i).squaredNorm());
+      if (i % step != 0) continue;
+      const Eigen::Matrix<double, kFpfhSize, 1> x = side->col(i).cast<double>();
+      products.selfadjointView<Eigen::Lower>().rankUpdate(x);
+      sum += x;
+      ++num;
+    }
+  }
+  // Squares of more than that may overflow; they are not worth the trouble.
+  if (num == 0 || !(largest < 1e30f)) return axes;
+  products.selfadjointView<Eigen::Lower>().rankUpdate(sum, -1.0 / num);
+  axes.directions = Eigen::SelfAdjointEigenSolver<Matrix>(products)
+                        .eigenvectors()
+                        .rightCols<kNumAxes>()
+                        .transpose()
+                        .cast<float>();
+  axes.margin = 4e-5f * std::sqrt(largest);
+  return axes;
+}
+
+DescriptorIndex::DescriptorIndex(const Fpfh& descriptors,
+                                 const DescriptorAxes& axes)
+    : coordinates_(axes.directions * descriptors) {
+  const Eigen::Index n = descriptors.cols();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!IsDescriptor(descriptors, i)) continue;
+    order_.push_back(static_cast<std::int32_t>(i));
+  }
+  SplitInHalves(coordinates_, order_.data(), order_.data() + order_.size());
+
+  const std::size_t num_tiles = (order_.size() + kLanes - 1) / kLanes;
+  const std::size_t num_boxes = (num_tiles + kLanes - 1) / kLanes;
+  parts_.margin = axes.margin;
+  parts_.tiles.resize(num_tiles);
+  parts_.tile_boxes = EmptyBoxes(num_tiles);
+  parts_.large_boxes = EmptyBoxes(num_boxes);
+  for (std::size_t box = 0; box < num_boxes; ++box) {
+    Corner box_low = Corner::Constant(kInfinity);
+    Corner box_high = -box_low;
+    const std::size_t end = std::min(num_tiles, (box + 1) * kLanes);
+    for (std::size_t t = box * kLanes; t < end; ++t) {
+      Corner low = Corner::Constant(kInfinity);
+      Corner high = -low;
+      Tile& tile = parts_.tiles[t];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t at = t * kLanes + lane;
+        if (at >= order_.size()) {
+          for (FloatRow& row : tile.bins) row.lane[lane] = kInfinity;
+          for (FloatRow& row : tile.along) row.lane[lane] = kInfinity;
+          tile.index.lane[lane] = kNone;
+          continue;
+        }
+        const std::int32_t i = order_[at];
+        for (int d = 0; d < kFpfhSize; ++d) {
+          tile.bins[d].lane[lane] = descriptors(d, i);
+        }
+        for (int axis = 0; axis < kNumAxes; ++axis) {
+          tile.along[axis].lane[lane] = coordinates_(axis, i);
+        }
+        tile.index.lane[lane] = i;
+        low = low.min(coordinates_.col(i).array());
+        high = high.max(coordinates_.col(i).array());
+      }
+      SetBox(t, low, high, &parts_.tile_boxes);
+      box_low = box_low.min(low);
+      box_high = box_high.max(high);
+    }
+    SetBox(box, box_low, box_high, &parts_.large_boxes);
+  }
+}
+
+NearestDescriptor DescriptorIndex::FindNearer(const float* descriptor,
+                                              const float* coordinates,
+                                              NearestDescriptor best,
+                                              bool any,
+                                              SimdLevel level) const {
+  switch (level) {
+    case SimdLevel::kAvx512:
+      return FindByAvx512(parts_, descriptor, coordinates, best, any);
+    case SimdLevel::kAvx2:
+      return FindByAvx2(parts_, descriptor, coordinates, best, any);
+    case SimdLevel::kBaseline:
+      break;
+  }
+  return Find<16>(parts_, descriptor, coordinates, best, any);
+}
+
+}  // namespace quatro

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Sixteen numbers at once, as pieces of one register each: kBytes is 16, 32 or
+// 64 for SimdLevel::kBaseline, kAvx2 and kAvx512. By the compiler's vectors, of
+// which a loop's vectorizer would not make the best where the loops are short.
+//
+// Only to be used in functions inlined into one marked for the level
+// (features/simd.h): larger registers have no calling convention below it.
+
+#ifndef QUATRO_FEATURES_LANES_H_
+#define QUATRO_FEATURES_LANES_H_
+
+#include <cstdint>
+
+#include "features/simd.h"
+
+namespace quatro {
+
+constexpr int kLanes = 16;
+
+template <int kBytes>
+struct Lanes {
+  typedef float Float __attribute__((vector_size(kBytes), may_alias));
+  typedef std::int32_t Int __attribute__((vector_size(kBytes), may_alias));
+  typedef double Double __attribute__((vector_size(kBytes), may_alias));
+  typedef std::int64_t Long __attribute__((vector_size(kBytes), may_alias));
+  static constexpr int kNumPieces = 64 / kBytes;
+  static constexpr int kPieceLanes = kBytes / 4;
+};
+
+// A row of 16 in memory, aligned to 64 bytes.
+struct alignas(64) FloatRow {
+  float lane[kLanes];
+};
+struct alignas(64) IntRow {
+  std::int32_t lane[kLanes];
+};
+
+template <int kBytes>
+QUATRO_SIMD_INLINE const typename Lanes<kBytes>::Float& Piece(
+    const FloatRow& row, int piece) {
+  return reinterpret_cast<const typename Lanes<kBytes>::Float*>(
+      row.lane)[piece];
+}
+template <int kBytes>
+QUATRO_SIMD_INLINE const typename Lanes<kBytes>::Int& Piece(const IntRow& row,
+                                                            int piece) {
+  return reinterpret_cast<const typename Lanes<kBytes>::Int*>(row.lane)[piece];
+}
+
+// Both halves of a register as smaller ones.
+template <int kBytes>
+QUATRO_SIMD_INLINE void Halve(const typename Lanes<kBytes>::Int& x,
+                              typename Lanes<kBytes / 2>::Int* low,
+                              typename Lanes<kBytes / 2>::Int* high) {
+  if constexpr (kBytes == 64) {
+    *low = __builtin_shufflevector(x, x, 0, 1, 2, 3, 4, 5, 6, 7);
+    *high = __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15);
+  } else {
+    *low = __builtin_shufflevector(x, x, 0, 1, 2, 3);
+    *high = __builtin_shufflevector(x, x, 4, 5, 6, 7);
+  }
+}
+
+template <int kBytes>
+QUATRO_SIMD_INLINE std::int32_t OrOf(const typename Lanes<kBytes>::Int& x) {
+  if constexpr (kBytes > 16) {
+    typename Lanes<kBytes / 2>::Int low, high;
+    Halve<kBytes>(x, &low, &high);
+    return OrOf<kBytes / 2>(low | high);
+  } else {
+    typename Lanes<16>::Int y = x | __builtin_shufflevector(x, x, 2, 3, 0, 1);
+    y |= __builtin_shufflevector(y, y, 1, 0, 3, 2);
+    return y[0];
+  }
+}
+
+template <int kBytes>
+QUATRO_SIMD_INLINE std::int32_t MinOf(const typename Lanes<kBytes>::Int& x) {
+  if constexpr (kBytes > 16) {
+    typename Lanes<kBytes / 2>::Int low, high;
+    Halve<kBytes>(x, &low, &high);
+    return MinOf<kBytes / 2>(low < high ? low : high);
+  } else {
+    typename Lanes<16>::Int other = __builtin_shufflevector(x, x, 2, 3, 0, 1);
+    typename Lanes<16>::Int y = x < other ? x : other;
+    other = __builtin_shufflevector(y, y, 1, 0, 3, 2);
+    y = y < other ? y : other;
+    return y[0];
+  }
+}
+
+// Bit k is set iff lane k is <= limit.
+template <int kBytes>
+QUATRO_SIMD_INLINE std::uint32_t BitsNotAbove(
+    const typename Lanes<kBytes>::Float (&x)[Lanes<kBytes>::kNumPieces],
+    float limit) {
+  typename Lanes<kBytes>::Int bits = {};
+  for (int piece = 0; piece < Lanes<kBytes>::kNumPieces; ++piece) {
+    typename Lanes<kBytes>::Int weight;
+    for (int lane = 0; lane < Lanes<kBytes>::kPieceLanes; ++lane) {
+      weight[lane] = 1 << (piece * Lanes<kBytes>::kPieceLanes + lane);
+    }
+    bits |= (x[piece] <= limit) & weight;
+  }
+  return static_cast<std::uint32_t>(OrOf<kBytes>(bits));
+}
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_LANES_H_
