@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <quatro/version.h>
 #include <vector>
 
 #include "solvers/rigid3.h"

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <quatro/version.h>
 
 DECLARE_bool(help);
 DECLARE_bool(helpshort);

@@ -1,13 +1,14 @@
 # Fails if a folder includes one on its right in
-#   features <- solvers <- robust <- experiments
+#   features <- solvers <- robust <- experiments, python
 #   cmake -DROOT=. -P tests/layering_test.cmake
 set(features_sees "features/")
 set(solvers_sees "features/|solvers/")
 set(robust_sees "features/|solvers/|robust/")
 set(experiments_sees "features/|solvers/|robust/|experiments/")
+set(python_sees "features/|solvers/|robust/|python/")
 
 set(num_checked 0)
-foreach(folder features solvers robust experiments)
+foreach(folder features solvers robust experiments python)
   file(GLOB_RECURSE sources "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cc")
   foreach(source ${sources})
     file(STRINGS "${source}" includes REGEX "^#include \"")

@@ -5,6 +5,8 @@ function(quatro_target name)
   # Contraction would make a result depend on which SIMD path was taken.
   target_compile_options(${name} PRIVATE
       -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off
+      # Calls within a library stay calls within it: nobody puts theirs between.
+      -fno-semantic-interposition
       # GCC 12 sees an overlap in "literal" + std::string (its bug 105651).
       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   if(QUATRO_SANITIZE)
@@ -20,7 +22,12 @@ function(quatro_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_library(quatro_${folder} ${ARG_SOURCES})
   add_library(quatro::${folder} ALIAS quatro_${folder})
-  target_include_directories(quatro_${folder} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>")
+  target_include_directories(quatro_${folder}
+      PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
+      INTERFACE "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>")
+  set_target_properties(quatro_${folder} PROPERTIES
+      EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON INSTALL_RPATH "$ORIGIN"
+      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_link_libraries(quatro_${folder} ${ARG_LINKS})
   quatro_target(quatro_${folder})
 endfunction()

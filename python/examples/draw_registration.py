@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Registers two clouds and draws them, from above, before and after.
+
+  python/examples/draw_registration.py SOURCE TARGET [--preset kitti]
+      [--method quatro] [--output drawing.png]
+
+Without --output it opens a window. Works cell by cell in a notebook, too.
+"""
+
+# %% What to register
+import argparse
+import sys
+
+import numpy as np
+
+import quatro
+
+parser = argparse.ArgumentParser(description='Registers two clouds and draws them.')
+parser.add_argument('source', help='.bin (KITTI), .ply or .pcd')
+parser.add_argument('target')
+parser.add_argument('--preset', default='kitti', choices=quatro.presets())
+parser.add_argument('--method', default='quatro', choices=quatro.methods())
+parser.add_argument('--output', help='a picture; a window without')
+args = parser.parse_args()
+
+try:
+    source = quatro.read_cloud(args.source)
+    target = quatro.read_cloud(args.target)
+except ValueError as error:
+    sys.exit(str(error))
+
+# %% Register
+answer = quatro.register(source, target, args.preset, method=args.method)
+print(answer)
+print('%d voxels and %d voxels, %d matches, of which %d agree' %
+      (answer.num_source_voxels, answer.num_target_voxels,
+       len(answer.matched_source), len(answer.inliers)))
+for stage, seconds in answer.stage_seconds.items():
+    print('%-12s %8.1f ms' % (stage, 1e3 * seconds))
+
+# %% Draw
+import matplotlib  # noqa: E402
+
+if args.output:
+    matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+
+
+def draw(axes, points, color, label):
+    axes.scatter(points[:, 0], points[:, 1], s=0.2, c=color, label=label, linewidths=0)
+
+
+def moved(points, pose):
+    return points @ pose[:3, :3].T + pose[:3, 3]
+
+
+figure, (before, after) = plt.subplots(1, 2, figsize=(14, 7), sharex=True, sharey=True)
+for axes in (before, after):
+    axes.set_aspect('equal')
+    axes.set_xlabel('x [m]')
+draw(before, target, 'tab:blue', 'target')
+draw(before, source, 'tab:orange', 'source')
+p, q = answer.matched_source, answer.matched_target
+is_inlier = np.zeros(len(p), dtype=bool)
+is_inlier[answer.inliers] = True
+for k in range(len(p)):
+    before.plot([p[k, 0], q[k, 0]], [p[k, 1], q[k, 1]], linewidth=0.3,
+                color='tab:green' if is_inlier[k] else '0.8', zorder=is_inlier[k])
+before.set_title('%d matches, green: %d that agree' % (len(p), is_inlier.sum()))
+before.set_ylabel('y [m]')
+draw(after, target, 'tab:blue', 'target')
+if answer.target_from_source is not None:
+    draw(after, moved(source, answer.target_from_source), 'tab:orange', 'source')
+after.set_title('%s, probability %.2f' % (answer.status, answer.probability))
+after.legend(loc='upper right', markerscale=20)
+figure.tight_layout()
+if args.output:
+    figure.savefig(args.output, dpi=120)
+else:
+    plt.show()
+sys.exit(0 if answer.is_registered else 1)

@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Robust global registration of point clouds.
+
+    import quatro
+    scan = quatro.read_cloud('a.bin')                  # or any (N, 3) array
+    other = quatro.read_cloud('b.bin')
+    answer = quatro.register(scan, other, preset='kitti')
+    print(answer)
+    if answer.is_registered:
+        moved = scan @ answer.target_from_source[:3, :3].T + answer.target_from_source[:3, 3]
+
+Metres, radians and seconds throughout. register() is for clouds, solve() for
+matched points of your own, align() for a pose that is nearly right already.
+"""
+
+from ._quatro import (  # noqa: F401
+    Alignment,
+    Registration,
+    Solution,
+    __version__,
+    align,
+    methods,
+    presets,
+    read_cloud,
+    register,
+    solve,
+)
+
+__all__ = ['Alignment', 'Registration', 'Solution', 'align', 'methods',
+           'presets', 'read_cloud', 'register', 'solve']

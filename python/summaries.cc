@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "python/summaries.h"
+
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "python/arrays.h"
+#include "solvers/rigid3.h"
+
+namespace quatro {
+namespace {
+
+namespace py = pybind11;
+
+constexpr double kDegree = M_PI / 180.0;  // [rad]
+
+const PoseSummary& SolutionOf(const Solution& s) { return s.solution; }
+const PoseSummary& SolutionOf(const Registration& r) {
+  return r.summary.solution;
+}
+const Verdict& VerdictOf(const Solution& s) { return s.verdict; }
+const Verdict& VerdictOf(const Registration& r) { return r.summary.verdict; }
+
+py::dict Seconds(const std::vector<StageTime>& times) {
+  py::dict seconds;
+  for (const StageTime& time : times) {
+    const py::str stage(time.stage);
+    const double before =
+        seconds.contains(stage) ? seconds[stage].cast<double>() : 0.0;
+    seconds[stage] = before + time.seconds;
+  }
+  return seconds;
+}
+
+std::string Print(const char* format, double a, double b, double c, double d) {
+  char text[200];
+  std::snprintf(text, sizeof(text), format, a, b, c, d);
+  return text;
+}
+
+std::string Describe(const Rigid3& pose) {
+  const Eigen::Vector3d& t = pose.translation;
+  return Print("yaw=%.2f deg, translation=(%.3f, %.3f, %.3f) m",
+               Yaw(pose.rotation) / kDegree,
+               t.x(),
+               t.y(),
+               t.z());
+}
+
+// "Solution(registered, quatro, probability=0.99, yaw=...)"
+template <typename Summary>
+std::string Represent(const char* name, const Summary& summary) {
+  const PoseSummary& solution = SolutionOf(summary);
+  const Verdict& verdict = VerdictOf(summary);
+  std::string text = std::string(name) + "(" + StatusName(verdict.status) +
+                     ", " + summary.method;
+  if (solution.target_from_source) {
+    text += Print(", probability=%.2f, ", verdict.probability, 0, 0, 0) +
+            Describe(*solution.target_from_source);
+  }
+  return text + ", matches=" + std::to_string(solution.num_distinct) +
+         ", inliers=" + std::to_string(solution.num_translation_inliers) +
+         ": " + verdict.reason + ")";
+}
+
+py::object CovarianceOf(const PoseSummary& solution) {
+  if (!solution.covariance || !solution.covariance->covariance) {
+    return py::none();
+  }
+  return Copy(*solution.covariance->covariance);
+}
+
+py::list UnheldOf(const PoseSummary& solution) {
+  py::list texts;
+  if (!solution.covariance) return texts;
+  for (const UnheldDirection& direction : solution.covariance->unheld) {
+    texts.append(direction.Describe());
+  }
+  return texts;
+}
+
+py::object CertificateOf(const PoseSummary& solution) {
+  if (!solution.certificate) return py::none();
+  const YawCertificate& certificate = *solution.certificate;
+  const auto or_none = [](const std::optional<double>& value) {
+    return value ? py::object(py::float_(*value)) : py::object(py::none());
+  };
+  py::dict dict;
+  dict["gnc_cost"] = or_none(certificate.gnc_cost);
+  dict["optimal_cost"] = certificate.optimal_cost;
+  dict["gap"] = or_none(certificate.gap);
+  return dict;
+}
+
+py::object CrosscheckOf(const PoseSummary& solution) {
+  if (!solution.crosscheck) return py::none();
+  py::dict dict;
+  dict["num_subproblems"] = solution.crosscheck->num_subproblems;
+  dict["max_rotation_difference"] =
+      solution.crosscheck->max_rotation_difference;
+  dict["max_translation_difference"] =
+      solution.crosscheck->max_translation_difference;
+  return dict;
+}
+
+py::object RefinementOf(const RegistrationSummary& summary) {
+  if (!summary.refinement) return py::none();
+  const RefinementSummary& refinement = *summary.refinement;
+  py::dict dict;
+  dict["method"] = RefinementName(refinement.method);
+  dict["is_accepted"] = refinement.is_accepted;
+  dict["message"] = refinement.message;
+  dict["moved_translation"] = refinement.moved_translation;
+  dict["moved_rotation"] = refinement.moved_rotation;
+  dict["unrefined_target_from_source"] =
+      Copy(std::optional<Rigid3>(refinement.unrefined_target_from_source));
+  return dict;
+}
+
+// What answers from matches and from clouds have in common.
+template <typename Summary>
+void BindCommon(const char* name, py::class_<Summary>* type) {
+  const auto add = [type](const char* field, const char* doc, auto get) {
+    type->def_property_readonly(field, get, doc);
+  };
+  type->def("__repr__",
+            [name](const Summary& s) { return Represent(name, s); });
+  add("method", "str: the estimator's name.", [](const Summary& s) {
+    return s.method;
+  });
+  add("status",
+      "str: registered, ambiguous, degenerate or insufficient.",
+      [](const Summary& s) {
+        return std::string(StatusName(VerdictOf(s).status));
+      });
+  add("is_registered",
+      "bool: the answer can be relied on.",
+      [](const Summary& s) { return VerdictOf(s).IsRegistered(); });
+  add("reason", "str: why it has this status.", [](const Summary& s) {
+    return VerdictOf(s).reason;
+  });
+  add("probability",
+      "float: that the pose is within 2 m and 10 deg; 0 without one.",
+      [](const Summary& s) { return VerdictOf(s).probability; });
+  add("features",
+      "dict: what the probability was computed from.",
+      [](const Summary& s) {
+        py::dict dict;
+        for (const Feature& feature : VerdictOf(s).features) {
+          dict[py::str(feature.name)] = feature.value;
+        }
+        return dict;
+      });
+  add("message", "str: how the estimator ended.", [](const Summary& s) {
+    return SolutionOf(s).message;
+  });
+  add("target_from_source",
+      "(4, 4) float64 or None: moves homogeneous points of the source onto "
+      "the target [m]. May be set without being registered.",
+      [](const Summary& s) { return Copy(SolutionOf(s).target_from_source); });
+  add("unpolished_target_from_source",
+      "(4, 4) float64 or None: the pose before it was polished, if it was.",
+      [](const Summary& s) {
+        return Copy(SolutionOf(s).unpolished_target_from_source);
+      });
+  add("yaw",
+      "float or None: of target_from_source [rad], in [-pi, pi].",
+      [](const Summary& s) {
+        const auto& pose = SolutionOf(s).target_from_source;
+        return pose ? py::object(py::float_(Yaw(pose->rotation)))
+                    : py::object(py::none());
+      });
+  add("scale",
+      "float: of the target over the source; 1 unless estimated.",
+      [](const Summary& s) { return SolutionOf(s).scale; });
+  add("covariance",
+      "(6, 6) float64 or None: of the pose, rotation [rad] then translation "
+      "[m], in the target frame. None where a direction is not held.",
+      [](const Summary& s) { return CovarianceOf(SolutionOf(s)); });
+  add("unheld_directions",
+      "list of str: directions that the data do not hold.",
+      [](const Summary& s) { return UnheldOf(SolutionOf(s)); });
+  type->def_property_readonly(
+      "inliers",
+      [](const py::object& self) {
+        const auto& s = self.cast<const Summary&>();
+        return ViewColumns(SolutionOf(s).translation_inliers, self);
+      },
+      "(K,) int64: rows of the matches within the noise bound. A view.");
+  type->def_property_readonly(
+      "consistent",
+      [](const py::object& self) {
+        const auto& s = self.cast<const Summary&>();
+        return ViewColumns(SolutionOf(s).consistent, self);
+      },
+      "(K,) int64: rows of the matches that pruning kept. A view.");
+  add("num_matches",
+      "int: matches, copies counted once.",
+      [](const Summary& s) { return SolutionOf(s).num_distinct; });
+  add("num_inliers",
+      "int: of these, within the noise bound.",
+      [](const Summary& s) { return SolutionOf(s).num_translation_inliers; });
+  add("certificate",
+      "dict or None: gnc_cost, optimal_cost and gap of the yaw's problem.",
+      [](const Summary& s) { return CertificateOf(SolutionOf(s)); });
+  add("crosscheck",
+      "dict or None: num_subproblems solved by Ceres, too, "
+      "max_rotation_difference [rad], max_translation_difference [m].",
+      [](const Summary& s) { return CrosscheckOf(SolutionOf(s)); });
+  add("notes", "dict: what a stage did, by stage.", [](const Summary& s) {
+    py::dict dict;
+    for (const StageNote& note : SolutionOf(s).notes) {
+      dict[py::str(note.stage)] = note.text;
+    }
+    return dict;
+  });
+}
+
+}  // namespace
+
+void BindSummaries(py::module_* module) {
+  py::class_<Solution> solution(
+      *module, "Solution", "The pose of matched points, and its verdict.");
+  BindCommon("Solution", &solution);
+  solution
+      .def_property_readonly(
+          "stage_seconds",
+          [](const Solution& s) { return Seconds(s.solution.stage_times); },
+          "dict: time by stage [s].")
+      .def_readonly(
+          "total_seconds", &Solution::total_seconds, "float: time [s].");
+
+  py::class_<Registration> registration(
+      *module, "Registration", "The pose of two clouds, and its verdict.");
+  BindCommon("Registration", &registration);
+  registration
+      .def_property_readonly(
+          "stage_seconds",
+          [](const Registration& r) { return Seconds(r.summary.stage_times); },
+          "dict: time by stage [s].")
+      .def_property_readonly(
+          "total_seconds",
+          [](const Registration& r) { return r.summary.total_seconds; },
+          "float: time [s].")
+      .def_property_readonly(
+          "matched_source",
+          [](const py::object& self) {
+            const auto& r = self.cast<const Registration&>();
+            return ViewPoints(r.summary.matched_source, self);
+          },
+          "(M, 3) float64: voxel means of the source [m]; row i is matched "
+          "with row i of matched_target. A view.")
+      .def_property_readonly(
+          "matched_target",
+          [](const py::object& self) {
+            const auto& r = self.cast<const Registration&>();
+            return ViewPoints(r.summary.matched_target, self);
+          },
+          "(M, 3) float64: the same of the target [m]. A view.")
+      .def_property_readonly(
+          "refinement",
+          [](const Registration& r) { return RefinementOf(r.summary); },
+          "dict or None: of refine=..., if it was tried: method, is_accepted, "
+          "message, moved_translation [m], moved_rotation [rad], "
+          "unrefined_target_from_source.")
+      .def_property_readonly(
+          "num_source_voxels",
+          [](const Registration& r) { return r.summary.num_source_voxels; },
+          "int: points of the source after sampling.")
+      .def_property_readonly(
+          "num_target_voxels",
+          [](const Registration& r) { return r.summary.num_target_voxels; },
+          "int: points of the target after sampling.")
+      .def_property_readonly(
+          "num_mutual_matches",
+          [](const Registration& r) { return r.summary.num_mutual_matches; },
+          "int: matches before the tuple test.")
+      .def_readonly("num_source_dropped",
+                    &Registration::num_source_dropped,
+                    "int: points of the source that are not finite.")
+      .def_readonly("num_target_dropped",
+                    &Registration::num_target_dropped,
+                    "int: the same of the target.");
+
+  py::class_<Alignment>(
+      *module, "Alignment", "The pose that local alignment ended with.")
+      .def("__repr__",
+           [](const Alignment& a) {
+             const AlignmentSummary& s = a.summary;
+             std::string text = std::string("Alignment(") +
+                                TerminationName(s.termination) + ", " +
+                                a.method;
+             if (s.target_from_source) {
+               text += ", " + Describe(*s.target_from_source);
+             }
+             return text +
+                    ", iterations=" + std::to_string(s.iterations.size()) +
+                    ", inliers=" + std::to_string(s.num_inliers) + ": " +
+                    s.message + ")";
+           })
+      .def_readonly("method", &Alignment::method, "str: icp, gicp or vgicp.")
+      .def_property_readonly(
+          "termination",
+          [](const Alignment& a) {
+            return std::string(TerminationName(a.summary.termination));
+          },
+          "str: converged, not_converged, degenerate or insufficient.")
+      .def_property_readonly(
+          "is_usable",
+          [](const Alignment& a) { return a.summary.IsUsable(); },
+          "bool: there is a pose. Whether it is right, nothing here says.")
+      .def_property_readonly(
+          "message",
+          [](const Alignment& a) { return a.summary.message; },
+          "str: why it ended.")
+      .def_property_readonly(
+          "target_from_source",
+          [](const Alignment& a) { return Copy(a.summary.target_from_source); },
+          "(4, 4) float64 or None: moves homogeneous points of the source onto "
+          "the target [m].")
+      .def_property_readonly(
+          "cost",
+          [](const Alignment& a) { return a.summary.cost; },
+          "float: at the end.")
+      .def_property_readonly(
+          "costs",
+          [](const Alignment& a) {
+            py::list costs;
+            for (const AlignmentIteration& iteration : a.summary.iterations) {
+              costs.append(iteration.cost);
+            }
+            return costs;
+          },
+          "list of float: before each step.")
+      .def_property_readonly(
+          "num_inliers",
+          [](const Alignment& a) { return a.summary.num_inliers; },
+          "int: points that correspond.")
+      .def_property_readonly(
+          "conditioning",
+          [](const Alignment& a) { return a.summary.conditioning; },
+          "float: the Hessian's least eigenvalue over the largest.")
+      .def_property_readonly(
+          "hessian",
+          [](const Alignment& a) { return Copy(a.summary.hessian); },
+          "(6, 6) float64: of half the cost, rotation [rad] first.")
+      .def_property_readonly(
+          "stage_seconds",
+          [](const Alignment& a) { return Seconds(a.summary.stage_times); },
+          "dict: time by stage [s].");
+}
+
+}  // namespace quatro

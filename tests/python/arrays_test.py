@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""What goes in, in which layouts, and what comes out."""
+
+import tracemalloc
+
+import numpy as np
+import problems
+import pytest
+
+import quatro
+
+TRUTH = problems.pose(2.0, (3, -4, 0.5))
+
+
+def pose_of(source, target, **options):
+    return quatro.solve(source, target, **options).target_from_source
+
+
+def peak_of_solve(source, target):
+    """What NumPy allocated at most, beyond what it had."""
+    tracemalloc.start()
+    before = tracemalloc.get_traced_memory()[0]
+    quatro.solve(source, target, method='arc_consensus', num_pairs=100)
+    peak = tracemalloc.get_traced_memory()[1] - before
+    tracemalloc.stop()
+    return peak
+
+
+def padded(points):
+    """The same in the first columns of wider rows."""
+    wide = np.full((len(points), 5), np.nan)
+    wide[:, :3] = points
+    return wide[:, :3]
+
+
+def every_second(points):
+    wide = np.full((2 * len(points), 3), np.nan)
+    wide[::2] = points
+    return wide[::2]
+
+
+@pytest.mark.parametrize('layout', [np.ascontiguousarray, padded, every_second])
+def test_rows_are_read_as_they_lie(layout):
+    source, target = problems.matches(1, TRUTH, 5000, 5000)
+    assert peak_of_solve(layout(source), layout(target)) < source.nbytes / 4
+
+
+def test_what_is_not_float64_in_rows_is_copied():
+    source, target = problems.matches(1, TRUTH, 5000, 5000)
+    for other in (source.astype(np.float32), np.asfortranarray(source)):
+        assert peak_of_solve(other, target) >= source.nbytes
+
+
+def misaligned(points):
+    raw = np.zeros(points.nbytes + 1, dtype=np.uint8)
+    view = np.frombuffer(raw.data, dtype=np.float64, offset=1,
+                         count=points.size).reshape(points.shape)
+    view[:] = points
+    return view
+
+
+@pytest.mark.parametrize('layout', [
+    padded, every_second, np.asfortranarray, misaligned,
+    lambda points: points[::-1].copy()[::-1],  # Rows that go back in memory.
+    lambda points: points.astype('>f8'),
+    lambda points: points.astype(np.longdouble),
+    lambda points: points.tolist()])
+def test_layout_does_not_matter_bit_for_bit(layout):
+    source, target = problems.matches(2, TRUTH)
+    expected = pose_of(source, target)
+    assert np.array_equal(pose_of(layout(source), layout(target)), expected)
+
+
+def test_float32_and_integers():
+    source, target = problems.matches(3, TRUTH)
+    single = source.astype(np.float32), target.astype(np.float32)
+    exact = pose_of(single[0].astype(float), single[1].astype(float))
+    assert np.array_equal(pose_of(*single), exact)
+    integers = np.round(source).astype(np.int32)
+    assert np.array_equal(pose_of(integers, target), pose_of(integers.astype(float), target))
+
+
+def test_rows_on_top_of_each_other_are_copied():
+    one = np.arange(3.0)
+    repeated = np.lib.stride_tricks.as_strided(one, (50, 3), (0, 8))
+    assert quatro.solve(repeated, repeated).num_matches == 1
+
+
+@pytest.mark.parametrize('given, text', [
+    (np.zeros((3, 100)), 'source_points has shape (3, 100), must be (N, 3)'),
+    (np.zeros(3), 'source_points has shape (3,), must be (N, 3)'),
+    (np.zeros((4, 3, 1)), 'source_points has shape (4, 3, 1), must be (N, 3)'),
+    (np.zeros((100, 3), dtype=complex),
+     'source_points has dtype complex128, must be real numbers'),
+    (np.zeros((100, 3), dtype=bool), 'source_points has dtype bool, must be real numbers'),
+    ([['a', 'b', 'c']], 'source_points has dtype <U1, must be real numbers'),
+    (None, 'source_points has dtype object, must be real numbers'),
+])
+def test_other_shapes_and_types_are_refused(given, text):
+    with pytest.raises(ValueError) as error:
+        quatro.solve(given, np.zeros((100, 3)))
+    assert str(error.value) == text
+
+
+def test_numbers_of_rows_must_agree():
+    with pytest.raises(ValueError, match='source_points has 4 rows and target_points 5'):
+        quatro.solve(np.zeros((4, 3)), np.zeros((5, 3)))
+
+
+def test_results_are_views_that_outlive_the_summary():
+    registration = quatro.register(problems.scan(1, 1), problems.scan(1, 2))
+    matched = registration.matched_source
+    assert matched.base is registration
+    assert not matched.flags.writeable
+    assert matched.shape == (len(registration.matched_target), 3)
+    assert matched.dtype == np.float64
+    before = matched.copy()
+    inliers = registration.inliers
+    assert inliers.dtype == np.int64 and not inliers.flags.writeable
+    del registration
+    assert np.array_equal(matched, before)
+    with pytest.raises(ValueError):
+        matched[0, 0] = 1.0
+
+
+def test_files_are_read_into_an_array_of_its_own(tmp_path):
+    points = problems.scan(1, 1).astype(np.float32)
+    points[7] = np.nan
+    path = tmp_path / 'scan.bin'
+    np.column_stack([points, np.zeros(len(points), np.float32)]).tofile(path)
+    cloud = quatro.read_cloud(path)
+    assert cloud.flags.writeable and cloud.flags.c_contiguous
+    assert np.array_equal(cloud, np.delete(points, 7, axis=0))
+    with pytest.raises(ValueError, match='none.ply'):
+        quatro.read_cloud(str(tmp_path / 'none.ply'))
+
+
+def test_open3d_clouds():
+    open3d = pytest.importorskip('open3d')
+
+    def cloud_of(points):
+        return open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
+
+    source, target = problems.scan(1, 1), problems.moved(TRUTH, problems.scan(1, 2))
+    expected = quatro.register(source, target)
+    answer = quatro.register(cloud_of(source), cloud_of(target))
+    assert answer.is_registered
+    assert np.array_equal(answer.target_from_source, expected.target_from_source)
+    # Their points by themselves, read as they lie.
+    matched = problems.matches(1, TRUTH, 5000, 5000)
+    vectors = [open3d.utility.Vector3dVector(points) for points in matched]
+    assert peak_of_solve(*vectors) < matched[0].nbytes / 4
+    aligned = quatro.align(cloud_of(source), cloud_of(problems.scan(1, 2)), 'icp')
+    assert aligned.is_usable

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Clouds: the front door, local alignment and the example."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import problems
+import pytest
+
+import quatro
+
+TRUTH = problems.pose(2.0, (3, -4, 0.2))
+NEARLY = TRUTH @ problems.pose(0.03, (0.2, -0.2, 0.05))
+SOURCE = problems.scan(1, 1)
+TARGET = problems.moved(TRUTH, problems.scan(1, 2))
+
+
+@pytest.mark.parametrize('method', list(quatro.methods()))
+def test_registers_two_scans_of_a_place(method):
+    answer = quatro.register(SOURCE, TARGET, method=method)
+    meters, radians = problems.errors(answer.target_from_source, TRUTH)
+    assert answer.is_registered and meters < 0.2 and radians < 0.02, answer
+    assert answer.method == method
+    assert 0 < answer.num_inliers <= len(answer.matched_source) <= answer.num_mutual_matches
+    assert answer.num_source_voxels < len(SOURCE)
+    assert repr(answer).startswith('Registration(registered, %s, ' % method)
+    # The inliers are rows of what was matched.
+    distances = np.linalg.norm(
+        problems.moved(answer.target_from_source, answer.matched_source[answer.inliers]) -
+        answer.matched_target[answer.inliers], axis=1)
+    assert (distances < 0.3 * np.sqrt(3) + 1e-9).all()
+
+
+def test_scans_of_two_places_are_not_registered():
+    assert not quatro.register(SOURCE, problems.scan(2, 1)).is_registered
+
+
+def test_threads_do_not_matter_bit_for_bit():
+    poses = [quatro.register(SOURCE, TARGET, num_threads=n).target_from_source for n in (1, 2)]
+    assert np.array_equal(*poses)
+
+
+def test_points_that_are_not_finite_are_left_out():
+    holed = np.insert(SOURCE, [0, 100, 100], [[np.nan] * 3, [np.inf] * 3, [0, np.nan, 0]], axis=0)
+    answer = quatro.register(holed, TARGET)
+    assert answer.num_source_dropped == 3 and answer.num_target_dropped == 0
+    assert np.array_equal(answer.target_from_source,
+                          quatro.register(SOURCE, TARGET).target_from_source)
+
+
+def test_presets_and_sizes_arrive():
+    voxels = {preset: quatro.register(SOURCE, TARGET, preset).num_source_voxels
+              for preset in ('kitti', 'paper', 'indoor', 'auto')}
+    assert voxels['kitti'] == voxels['paper'] < voxels['indoor']
+    wide = quatro.register(SOURCE, TARGET, voxel_size=0.5, normal_radius=1.5, fpfh_radius=2.5)
+    assert wide.num_source_voxels < voxels['kitti']
+    assert wide.is_registered
+    no_tuples = quatro.register(SOURCE, TARGET, tuple_test=False)
+    assert len(no_tuples.matched_source) == no_tuples.num_mutual_matches
+
+
+def test_refinement_is_told():
+    answer = quatro.register(SOURCE, TARGET, refine='gicp')
+    assert answer.refinement['method'] == 'gicp' and answer.refinement['is_accepted']
+    assert answer.refinement['moved_translation'] < 0.3
+    assert not np.array_equal(answer.refinement['unrefined_target_from_source'],
+                              answer.target_from_source)
+    assert quatro.register(SOURCE, TARGET).refinement is None
+
+
+@pytest.mark.parametrize('source, options, text', [
+    (np.zeros((0, 3)), {}, 'the source has no points'),
+    (np.full((9, 3), np.nan), {}, 'the source has no points'),
+    (SOURCE, {'voxel_size': -1}, 'voxel_size = -1, must be > 0 and finite'),
+    (SOURCE, {'fpfh_radius': 0.1}, 'fpfh_radius = 0.1, must be >= normal_radius = 0.9'),
+    (SOURCE, {'noise_bound': 0}, 'noise_bound = 0, must be > 0 and finite'),
+    (SOURCE, {'method': 'ransac', 'confidence': 2}, 'confidence = 2, must be in (0, 1]'),
+    (SOURCE, {'preset': 'moon'}, 'preset = "moon", must be one of kitti, paper, kitti_paper, '
+                                 'reference, indoor, auto'),
+    (SOURCE, {'refine': 'ndt'}, 'refine = "ndt", must be one of none, icp, gicp, vgicp'),
+])
+def test_what_the_library_refuses(source, options, text):
+    with pytest.raises(ValueError) as error:
+        quatro.register(source, TARGET, **options)
+    assert str(error.value) == text
+
+
+def test_a_cloud_too_wide_is_refused():
+    stray = np.vstack([SOURCE, [[1e7, 0, 0]]])
+    with pytest.raises(ValueError, match='^source: the cloud is .* more than 2.21 voxels'):
+        quatro.register(stray, TARGET)
+
+
+@pytest.mark.parametrize('method', ['icp', 'gicp', 'vgicp'])
+def test_local_alignment_ends_at_the_pose(method):
+    answer = quatro.align(SOURCE, TARGET, method, NEARLY)
+    meters, radians = problems.errors(answer.target_from_source, TRUTH)
+    before = problems.errors(NEARLY, TRUTH)
+    assert answer.is_usable and answer.termination == 'converged', answer
+    assert meters < 0.05 < before[0] and radians < 0.005 < before[1], answer
+    assert answer.costs[-1] < answer.costs[0]
+    assert answer.hessian.shape == (6, 6) and answer.num_inliers > 10000
+    assert repr(answer).startswith('Alignment(converged, %s, yaw=114.' % method)
+    one = quatro.align(SOURCE, TARGET, method, NEARLY, num_threads=1)
+    assert np.array_equal(one.target_from_source, answer.target_from_source)
+    assert quatro.align(SOURCE, TARGET, method, NEARLY,
+                        max_num_iterations=1).termination == 'not_converged'
+
+
+def test_local_alignment_refuses():
+    bad = SOURCE.copy()
+    bad[5, 0] = np.nan
+    for arguments, text in [
+            ((bad, TARGET), 'a point of the source is not finite'),
+            ((SOURCE, TARGET, 'ndt'), 'method = "ndt", must be one of icp, gicp, vgicp'),
+            ((SOURCE, TARGET, 'icp', np.eye(3)),
+             'initial_target_from_source has shape (3, 3), must be (4, 4)'),
+            ((SOURCE, TARGET, 'icp', 2 * np.eye(4)),
+             'initial_target_from_source is no rigid motion'),
+            ((SOURCE, TARGET, 'icp', np.diag([1, 1, -1, 1])),
+             'initial_target_from_source is no rigid motion')]:
+        with pytest.raises(ValueError) as error:
+            quatro.align(*arguments)
+        assert str(error.value) == text
+    with pytest.raises(ValueError, match='^max_correspondence_distance = -1, must be '):
+        quatro.align(SOURCE, TARGET, max_correspondence_distance=-1)
+    with pytest.raises(TypeError, match=r'^align\(method="icp"\) has no option voxel_size'):
+        quatro.align(SOURCE, TARGET, 'icp', voxel_size=1.0)
+    assert quatro.align(SOURCE[:2], TARGET).termination == 'insufficient'
+
+
+def test_the_example_draws(tmp_path):
+    pytest.importorskip('matplotlib')
+    for name, points in (('source', SOURCE), ('target', TARGET)):
+        np.column_stack([points, 0 * points[:, 0]]).astype(np.float32).tofile(
+            tmp_path / (name + '.bin'))
+    example = (pathlib.Path(__file__).resolve().parents[2] /
+               'python/examples/draw_registration.py')
+    command = [sys.executable, example, 'source.bin', 'target.bin', '--output', 'drawing.png']
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False,
+                         env={**os.environ, 'MPLCONFIGDIR': str(tmp_path)})
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.startswith('Registration(registered, quatro')
+    assert (tmp_path / 'drawing.png').read_bytes()[:4] == b'\x89PNG'
+    command[2] = 'none.bin'
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert run.returncode == 1 and 'none.bin' in run.stderr and 'Traceback' not in run.stderr

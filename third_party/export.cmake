@@ -1,0 +1,50 @@
+# What others build against. Headers are included as "robust/quatro.h", as they
+# include each other, or as <quatro/robust/quatro.h>, which no file of others
+# can be taken for: so both include/ and include/quatro/ are on the path, and
+# the build folder has the like of the former.
+set(QUATRO_EXPORTED features solvers robust)
+
+configure_file(third_party/version.h.in include/quatro/version.h @ONLY)
+foreach(folder IN LISTS QUATRO_EXPORTED)
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}"
+       "${PROJECT_BINARY_DIR}/include/quatro/${folder}" SYMBOLIC)
+endforeach()
+
+if(NOT QUATRO_INSTALL)
+  return()
+endif()
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+# Two parts: quatro_programs with what they need to run, quatro_development.
+set(QUATRO_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/quatro")
+list(TRANSFORM QUATRO_EXPORTED PREPEND quatro_ OUTPUT_VARIABLE targets)
+install(TARGETS quatro ${targets} EXPORT quatro
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+                COMPONENT quatro_programs NAMELINK_COMPONENT quatro_development
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT quatro_development
+        INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+                             "${CMAKE_INSTALL_INCLUDEDIR}/quatro")
+install(EXPORT quatro FILE quatro-targets.cmake NAMESPACE quatro::
+        DESTINATION "${QUATRO_CMAKE_DIR}" COMPONENT quatro_development)
+install(DIRECTORY ${QUATRO_EXPORTED}
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quatro" COMPONENT quatro_development
+        FILES_MATCHING PATTERN "*.h")
+install(FILES "${PROJECT_BINARY_DIR}/include/quatro/version.h"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quatro" COMPONENT quatro_development)
+
+configure_package_config_file(
+    third_party/quatro-config.cmake.in "${PROJECT_BINARY_DIR}/quatro-config.cmake"
+    INSTALL_DESTINATION "${QUATRO_CMAKE_DIR}" NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/quatro-config-version.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/quatro-config.cmake"
+              "${PROJECT_BINARY_DIR}/quatro-config-version.cmake"
+        DESTINATION "${QUATRO_CMAKE_DIR}" COMPONENT quatro_development)
+
+foreach(package IN ITEMS programs development)
+  set(name_programs quatro)
+  set(name_development libquatro-dev)
+  install(FILES LICENSE RENAME copyright COMPONENT quatro_${package}
+          DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/${name_${package}}")
+endforeach()
