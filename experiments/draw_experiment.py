@@ -91,7 +91,7 @@ def read_results(path):
                 for name in NUMBERS:
                     result[name] = parse_number(row[name], f"{where} {name}")
                 if (row["rotation_error_deg"] == "") != (row["translation_error_m"] == ""):
-                    raise BadInput(f"{path}: line {reader.line_num} has one error and not the other")
+                    raise BadInput(f"{path}: line {reader.line_num} has one error of two")
                 result["stages"] = parse_stages(row["stages_ms"], f"{where} stages_ms")
                 results.append(result)
     except OSError as error:
@@ -232,7 +232,8 @@ def draw_distance(results):
                          whiskerprops={"color": color}, capprops={"color": color})
             axes.plot([], [], color=color, linewidth=6, alpha=0.6, label=method)
         axes.set_yscale("log")
-        axes.set_xticks(range(len(bins)), [name.removesuffix(" m").replace("-", "–") for name in bins])
+        axes.set_xticks(range(len(bins)),
+                        [name.removesuffix(" m").replace("-", "–") for name in bins])
         axes.set_xlim(-0.6, len(bins) - 0.4)
         axes.set_xlabel("distance [m]")
         axes.set_ylabel(label)

@@ -113,7 +113,7 @@ class DrawExperimentTest(unittest.TestCase):
         self.write(text_of([row()]) + "a,b\n")
         self.expect_refused("line 3 must have 12 columns")
         self.write(text_of([row(error=None, translation_error_m="1")]))
-        self.expect_refused("line 2 has one error and not the other")
+        self.expect_refused("line 2 has one error of two")
         self.write(text_of(ROWS))
         self.expect_refused("there is no 'pie'", "--figures=success,pie")
         self.expect_refused("results.csv: File exists",
