@@ -20,6 +20,7 @@
 #include "experiments/protocols/odometry_runs.h"
 #include "experiments/protocols/protocols.h"
 #include "experiments/protocols/tilt.h"
+#include "experiments/runner/manifest.h"
 #include "experiments/runner/pair_experiment.h"
 #include "experiments/runner/stop_signal.h"
 #include "experiments/synthetic_protocols.h"
@@ -214,6 +215,34 @@ std::optional<quatro::PairSelection> TasksOfFlags(std::string* error) {
   return quatro::SelectPairs(*drives, protocol, error);
 }
 
+quatro::Manifest ManifestOfFlags() {
+  quatro::Manifest manifest = quatro::BeginManifest();
+  manifest.seed = FLAGS_seed;
+  // Those that choose pairs are in the checksum of the tasks, too.
+  manifest.flags = {{"protocol", FLAGS_protocol},
+                    {"methods", FLAGS_methods},
+                    {"preset", FLAGS_preset},
+                    {"ins_mode", FLAGS_ins_mode}};
+  manifest.other_flags = {{"data", FLAGS_data},
+                          {"sequences", FLAGS_sequences},
+                          {"poses", FLAGS_poses},
+                          {"pairs", FLAGS_pairs},
+                          {"bins", FLAGS_bins},
+                          {"intervals", FLAGS_intervals},
+                          {"max_pairs", std::to_string(FLAGS_max_pairs)},
+                          {"shard", FLAGS_shard},
+                          {"threads", std::to_string(FLAGS_threads)}};
+  return manifest;
+}
+
+// Once all pairs are done.
+int LeaveTables() {
+  std::string error, summary;
+  if (!quatro::WriteTables(FLAGS_output, &summary, &error)) return Fail(error);
+  std::fputs(summary.c_str(), stdout);
+  return quatro::kExitDone;
+}
+
 int RunOnScans() {
   std::string error;
   if (FLAGS_output.empty())
@@ -235,9 +264,10 @@ int RunOnScans() {
   experiment.methods = *methods;
   experiment.output = FLAGS_output;
   experiment.shard = *shard;
+  experiment.manifest = ManifestOfFlags();
   if (FLAGS_merge) {
     if (!quatro::MergeShards(experiment, &error)) return Fail(error);
-    return quatro::kExitDone;
+    return LeaveTables();
   }
 
   quatro::ListenForStop();
@@ -254,7 +284,7 @@ int RunOnScans() {
     case quatro::RunEnd::kFailed:
       return Fail(error);
   }
-  return quatro::kExitDone;
+  return shard->IsWhole() ? LeaveTables() : quatro::kExitDone;
 }
 
 void TellNotes(const std::vector<quatro::SequenceData>& drives) {

@@ -4,10 +4,14 @@
 #include "experiments/runner/pair_experiment.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
+#include "experiments/runner/data_checksum.h"
 #include "experiments/runner/run_folder.h"
+#include "experiments/tables/run_tables.h"
+#include "features/file.h"
 
 namespace quatro {
 namespace {
@@ -34,7 +38,67 @@ std::vector<std::string> ListShards(const std::string& output) {
   return shards;
 }
 
+void AppendBits(const Rigid3& pose, std::string* bytes) {
+  const Eigen::Matrix4d matrix = pose.ToMatrix();
+  bytes->append(reinterpret_cast<const char*>(matrix.data()), sizeof(matrix));
+}
+
+void AppendBits(const Attitude& attitude, std::string* bytes) {
+  const double angles[] = {attitude.roll, attitude.pitch, attitude.yaw};
+  bytes->append(reinterpret_cast<const char*>(angles), sizeof(angles));
+}
+
+// Leaves the manifest in a folder that has none, and compares it with the one
+// that it has.
+bool TakeManifest(const std::string& folder,
+                  const PairExperiment& experiment,
+                  std::string* error) {
+  Manifest manifest = experiment.manifest;
+  manifest.flags["tasks"] = ChecksumOf(experiment.tasks);
+  std::vector<std::string> scans;
+  for (const PairTask& task : experiment.tasks) {
+    scans.push_back(task.source);
+    scans.push_back(task.target);
+  }
+  const auto data = SummarizeData("", scans, {}, error);
+  if (!data) return false;
+  manifest.data = *data;
+  const std::string path = folder + "/manifest.json";
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    return WriteFileAtomically(path, FormatManifest(manifest), error);
+  }
+  const auto was = ReadManifest(path, error);
+  if (!was) return false;
+  std::string difference;
+  if (DecidesTheSame(*was, manifest, &difference)) return true;
+  *error = folder + ": is of another run: " + difference +
+           "; take another --output, or the flags and data it began with";
+  return false;
+}
+
 }  // namespace
+
+std::string ChecksumOf(const std::vector<PairTask>& tasks) {
+  std::string bytes;
+  for (const PairTask& task : tasks) {
+    bytes += task.name + '\n' + task.set + '\n' + task.bin + '\n';
+    if (task.true_target_from_source) {
+      AppendBits(*task.true_target_from_source, &bytes);
+    }
+    if (task.ins) {
+      AppendBits(task.ins->source, &bytes);
+      AppendBits(task.ins->target, &bytes);
+      bytes += std::to_string(task.ins->std);
+    }
+  }
+  char digits[32];
+  std::snprintf(digits,
+                sizeof(digits),
+                "%016llx",
+                static_cast<unsigned long long>(Fnv1a(bytes)));
+  return digits;
+}
 
 RunEnd RunPairExperiment(const PairExperiment& experiment,
                          const RunControl& control,
@@ -43,7 +107,9 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
       RunFolder::Open(ShardFolder(experiment.output, experiment.shard),
                       experiment.methods.names,
                       error);
-  if (!folder) return RunEnd::kFailed;
+  if (!folder || !TakeManifest(folder->path(), experiment, error)) {
+    return RunEnd::kFailed;
+  }
   return RunTasks(TakeShard(experiment.tasks, experiment.shard),
                   experiment.methods,
                   control,
@@ -59,10 +125,12 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
   }
   const std::vector<std::string>& methods = experiment.methods.names;
   const auto whole = RunFolder::Open(experiment.output, methods, error);
-  if (!whole) return false;
+  if (!whole || !TakeManifest(experiment.output, experiment, error)) {
+    return false;
+  }
   for (const std::string& path : shards) {
     const auto shard = RunFolder::Open(path, methods, error);
-    if (!shard) return false;
+    if (!shard || !TakeManifest(path, experiment, error)) return false;
     const auto results = ReadResultCsv(path + "/rows.csv", error);
     if (!results) return false;
     for (auto first = results->begin(); first != results->end();
@@ -76,6 +144,30 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
   std::vector<std::string> names;
   for (const PairTask& task : experiment.tasks) names.push_back(task.name);
   return whole->Finish(names, error);
+}
+
+bool WriteTables(const std::string& output,
+                 std::string* summary,
+                 std::string* error) {
+  const auto results = ReadResultCsv(output + "/results.csv", error);
+  if (!results) return false;
+  const std::string folder = output + "/tables";
+  std::error_code status;
+  fs::create_directories(folder, status);
+  if (status) {
+    *error = folder + ": " + status.message();
+    return false;
+  }
+  const std::vector<RunTable> tables = MakeRunTables(*results, TableOptions());
+  for (const TableFile& file : FormatRunTables(tables)) {
+    if (!WriteFileAtomically(folder + "/" + file.name, file.text, error)) {
+      return false;
+    }
+  }
+  for (const RunTable& table : tables) {
+    if (table.name == "summary") *summary = FormatTable(table.table);
+  }
+  return true;
 }
 
 }  // namespace quatro

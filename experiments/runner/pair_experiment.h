@@ -5,7 +5,8 @@
 //   OUTPUT/                 the run's folder (experiments/runner/run_folder.h)
 //   OUTPUT/shard_2_of_5/    that of a part, for --merge to put together
 //
-// each with the manifest of what makes its results.
+// each with manifest.json, what makes its results. Where all pairs are done,
+// OUTPUT gets tables/, of experiments/tables/run_tables.h, too.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
 #define QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/runner/manifest.h"
 #include "experiments/runner/pair_task.h"
 #include "experiments/runner/run_task.h"
 #include "experiments/runner/runner.h"
@@ -25,11 +27,15 @@ struct PairExperiment {
   std::string output;
   Shard shard;
 
-  // Of all the flags that results depend on, for the manifest.
-  std::string flags;
+  // Without the data; its tasks are put in as the flag "tasks".
+  Manifest manifest;
 };
 
-// Runs, or goes on with, the experiment's part.
+// Name, truth and INS of each, bit for bit.
+std::string ChecksumOf(const std::vector<PairTask>& tasks);
+
+// Runs, or goes on with, the experiment's part. Fails if the folder's manifest
+// is that of other results.
 RunEnd RunPairExperiment(const PairExperiment& experiment,
                          const RunControl& control,
                          std::string* error);
@@ -38,6 +44,12 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
 // once. Returns false and sets *error, which names the part or the first pair
 // that is missing; what is there is kept.
 bool MergeShards(const PairExperiment& experiment, std::string* error);
+
+// From results.csv of the whole, tables/NAME.csv and .tex. *summary is the
+// table for a terminal.
+bool WriteTables(const std::string& output,
+                 std::string* summary,
+                 std::string* error);
 
 }  // namespace quatro
 

@@ -4,6 +4,7 @@
 #include "experiments/tables/timing_table.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -16,13 +17,21 @@ bool IsFrontEnd(const std::string& stage) {
   return stage == "voxels" || stage == "features" || stage == "matching";
 }
 
+// A new stage goes before the first known one that comes after it.
 std::vector<std::string> StagesOf(const std::vector<PairResult>& results) {
   std::vector<std::string> stages;
   for (const PairResult& result : results) {
-    for (const StageTime& time : result.stage_times) {
-      if (std::find(stages.begin(), stages.end(), time.stage) == stages.end()) {
-        stages.push_back(time.stage);
+    const auto& own = result.stage_times;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const auto find = [&](const std::string& stage) {
+        return std::find(stages.begin(), stages.end(), stage);
+      };
+      if (find(own[i].stage) != stages.end()) continue;
+      auto place = stages.end();
+      for (std::size_t k = i + 1; k < own.size(); ++k) {
+        place = std::min(place, find(own[k].stage));
       }
+      stages.insert(place, own[i].stage);
     }
   }
   return stages;

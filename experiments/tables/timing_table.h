@@ -15,11 +15,10 @@
 namespace quatro {
 
 // A row a method, over its readable pairs: how many, the median of each stage,
-// in the order in which stages first come; of voxels, features and matching
-// together ("front end") and of the other stages ("rest"); and of the whole,
-// with its bootstrap interval. A stage that
-// a pair did not get to counts as 0 ms there, and one that no pair of a method
-// has is an empty cell.
+// in the order in which methods go through them; of voxels, features and
+// matching together ("front end") and of the other stages ("rest"); and of the
+// whole, with its bootstrap interval. A stage that a pair did not get to counts
+// as 0 ms there, and one that no pair of a method has is an empty cell.
 Table MakeTimingTable(const std::vector<PairResult>& results,
                       const TableOptions& options);
 

@@ -277,6 +277,21 @@ TEST(TimingTable, IsByHand) {
               "b", "2", "4.50", "9.00", "4.50", "", "18.00", "", "22.50")));
 }
 
+TEST(TimingTable, StagesAreInTheOrderOfTheMethods) {
+  auto results = Results();
+  results[0].stage_times = {{"voxels", 1}, {"ransac", 1}, {"judge", 1}};
+  results[3].stage_times = {
+      {"voxels", 1}, {"graph", 1}, {"clique", 1}, {"judge", 1}, {"last", 1}};
+  const Table table = MakeTimingTable(results, {});
+  EXPECT_THAT(std::vector(table.columns.begin() + 2, table.columns.end() - 3),
+              ElementsAre("stage ms / voxels",
+                          "stage ms / ransac",
+                          "stage ms / graph",
+                          "stage ms / clique",
+                          "stage ms / judge",
+                          "stage ms / last"));
+}
+
 TEST(TimingTable, NoOtherTableHasTimes) {
   const auto all = [](const std::vector<PairResult>& results) {
     const TableOptions options{.with_intervals = true};

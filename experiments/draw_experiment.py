@@ -1,0 +1,406 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Draws the figures of a run from the results.csv in its folder, as PDF and PNG.
+
+    experiments/with_python.sh matplotlib experiments/draw_experiment.py RUN [--output=FOLDER]
+        [--figures=success,distance,yaw,tilt,timing,recall]
+
+    success   pairs within 2 m and 10 deg by set, with Wilson's 95 % intervals
+    distance  errors of all answers by bin of distance ("8-10 m"): boxes from quartile to
+              quartile, whiskers from the 5th to the 95th percentile
+    yaw       median error of all answers over the added yaw (bins "yaw 90 deg"), quartiles shaded
+    tilt      how the relative roll-pitch and yaw of the pairs are spread
+    timing    median time of each stage, with and without the front end
+    recall    share of pairs over the error that is allowed
+
+Figures for which the run has no pairs are left out. Names of the files written go
+to standard output.
+Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+"""
+import argparse
+import csv
+import math
+import os
+import re
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+TEXT = ("pair", "set", "bin", "method", "status", "stages_ms")
+NUMBERS = ("distance_m", "true_yaw_deg", "true_tilt_deg", "rotation_error_deg",
+           "translation_error_m", "total_ms")
+ERRORS = (("translation_error_m", "translation error [m]"),
+          ("rotation_error_deg", "rotation error [deg]"))
+LIMIT = (2.0, 10.0)  # [m], [deg]
+FRONT_END = ("voxels", "features", "matching")
+LINES = ("-", "--", "-.", ":")
+# An error below it is drawn as it: the axes are logarithmic.
+FLOOR = 1e-4
+
+
+class BadInput(Exception):
+    pass
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(message)
+
+
+def parse_number(text, where):
+    if text == "":
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise BadInput(f"{where} is no finite number: {text!r}")
+    return value
+
+
+def parse_stages(text, where):
+    stages = {}
+    for part in filter(None, text.split(";")):
+        stage, equals, time = part.partition("=")
+        value = parse_number(time, where) if equals and stage else None
+        if value is None:
+            raise BadInput(f"{where} has no 'stage=ms' in {part!r}")
+        stages[stage] = stages.get(stage, 0.0) + value
+    return stages
+
+
+def read_results(path):
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file)
+            names = reader.fieldnames or []
+            for name in (*TEXT, *NUMBERS):
+                if name not in names:
+                    raise BadInput(f"{path}: there is no column {name}")
+            results = []
+            for row in reader:
+                if None in row or None in row.values():
+                    raise BadInput(f"{path}: line {reader.line_num} must have {len(names)} columns")
+                where = f"{path}: line {reader.line_num}, column"
+                result = {name: row[name] for name in TEXT}
+                for name in NUMBERS:
+                    result[name] = parse_number(row[name], f"{where} {name}")
+                if (row["rotation_error_deg"] == "") != (row["translation_error_m"] == ""):
+                    raise BadInput(f"{path}: line {reader.line_num} has one error of two")
+                result["stages"] = parse_stages(row["stages_ms"], f"{where} stages_ms")
+                results.append(result)
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise BadInput(f"{path}: {error}") from None
+    if not results:
+        raise BadInput(f"{path}: has no results")
+    return results
+
+
+def names_of(results, key):
+    """In the order in which they first come."""
+    return list(dict.fromkeys(result[key] for result in results))
+
+
+def wilson(successes, n, z=1.959963984540054):
+    """metrics/intervals.h."""
+    p, z2 = successes / n, z * z / n
+    center = (p + z2 / 2) / (1 + z2)
+    half = math.sqrt(z2 * (p * (1 - p) + z2 / 4)) / (1 + z2)
+    return min(p, max(0.0, center - half)), max(p, min(1.0, center + half))
+
+
+def quantile(values, share):
+    values = sorted(values)
+    place = share * (len(values) - 1)
+    below = int(place)
+    above = min(below + 1, len(values) - 1)
+    return values[below] + (place - below) * (values[above] - values[below])
+
+
+def posed(results):
+    return [r for r in results if r["status"] != "unreadable" and r["distance_m"] is not None]
+
+
+def succeeds(result):
+    return (result["translation_error_m"] is not None
+            and result["translation_error_m"] <= LIMIT[0]
+            and result["rotation_error_deg"] <= LIMIT[1])
+
+
+def distance_of(bin_name):
+    match = re.fullmatch(r"(\d+(?:\.\d+)?)-(\d+(?:\.\d+)?) m", bin_name)
+    return match and (float(match[1]), float(match[2]))
+
+
+def yaw_of(bin_name):
+    match = re.fullmatch(r"yaw (-?\d+(?:\.\d+)?) deg", bin_name)
+    return match and float(match[1])
+
+
+def style_of(methods, method):
+    i = methods.index(method)
+    return {"color": plt.get_cmap("tab10")(i % 10), "linestyle": LINES[i // 10 % len(LINES)]}
+
+
+def make_panels(num_panels, num_entries, height, width=3.5, are_stacked=False):
+    """Panels beside or above each other, under a strip for the legend of all. [inches]"""
+    rows, columns = (num_panels, 1) if are_stacked else (1, num_panels)
+    num_legend_columns = max(1, min(num_entries, int(width * columns / 1.25)))
+    strip = 0.1 + 0.2 * math.ceil(num_entries / num_legend_columns)
+    figure = plt.figure(figsize=(width * columns, height * rows + strip), layout="constrained")
+    grid = figure.add_gridspec(1 + rows, columns, height_ratios=(strip, *[height] * rows))
+    legend = figure.add_subplot(grid[0, :])
+    legend.axis("off")
+    panels = [figure.add_subplot(grid[1 + i // columns, i % columns]) for i in range(num_panels)]
+
+    def finish():
+        entries = {}
+        for axes in panels:
+            for handle, label in zip(*axes.get_legend_handles_labels()):
+                entries.setdefault(label, handle)
+        box = legend.legend(entries.values(), entries.keys(), loc="center",
+                            ncol=num_legend_columns, frameon=False, borderaxespad=0.0,
+                            fontsize="small")
+        box.set_in_layout(False)
+        return figure
+
+    return panels, finish
+
+
+def draw_success(results):
+    results = posed(results)
+    if not results:
+        return None
+    methods, sets = names_of(results, "method"), names_of(results, "set")
+    width = 0.8 / len(methods)
+    num_bars = len(methods) * len(sets)
+    (axes,), finish = make_panels(1, len(methods), 2.6, min(7.2, max(3.6, 1.0 + 0.28 * num_bars)))
+    for m, method in enumerate(methods):
+        places, rates, below, above = [], [], [], []
+        for s, name in enumerate(sets):
+            own = [r for r in results if r["method"] == method and r["set"] == name]
+            if not own:
+                continue
+            rate = sum(map(succeeds, own)) / len(own)
+            low, high = wilson(sum(map(succeeds, own)), len(own))
+            places.append(s + (m - (len(methods) - 1) / 2) * width)
+            rates.append(100 * rate)
+            below.append(100 * (rate - low))
+            above.append(100 * (high - rate))
+        axes.bar(places, rates, 0.9 * width, yerr=(below, above), label=method,
+                 color=style_of(methods, method)["color"],
+                 error_kw={"elinewidth": 0.8, "capsize": 1.5})
+    axes.set_xticks(range(len(sets)), [name or "all" for name in sets])
+    axes.set_xlim(-0.6, len(sets) - 0.4)
+    axes.set_ylim(0, 105)
+    axes.set_xlabel("sequence")
+    axes.set_ylabel("success [%]")
+    return finish()
+
+
+def draw_distance(results):
+    answers = [r for r in posed(results) if r["translation_error_m"] is not None
+               and distance_of(r["bin"])]
+    if not answers:
+        return None
+    methods = names_of(answers, "method")
+    bins = sorted(names_of(answers, "bin"), key=distance_of)
+    width = 0.8 / len(methods)
+    is_wide = len(methods) * len(bins) > 18
+    panels, finish = make_panels(2, len(methods), 2.4, 7.2 if is_wide else 3.6, is_wide)
+    for axes, (column, label) in zip(panels, ERRORS):
+        for m, method in enumerate(methods):
+            color = style_of(methods, method)["color"]
+            data, places = [], []
+            for b, name in enumerate(bins):
+                own = [max(r[column], FLOOR) for r in answers
+                       if r["method"] == method and r["bin"] == name]
+                if own:
+                    data.append(own)
+                    places.append(b + (m - (len(methods) - 1) / 2) * width)
+            axes.boxplot(data, positions=places, widths=0.8 * width, whis=(5, 95),
+                         showfliers=False, patch_artist=True, manage_ticks=False,
+                         boxprops={"facecolor": color, "edgecolor": color, "alpha": 0.6},
+                         medianprops={"color": "black", "linewidth": 1.2},
+                         whiskerprops={"color": color}, capprops={"color": color})
+            axes.plot([], [], color=color, linewidth=6, alpha=0.6, label=method)
+        axes.set_yscale("log")
+        axes.set_xticks(range(len(bins)),
+                        [name.removesuffix(" m").replace("-", "–") for name in bins])
+        axes.set_xlim(-0.6, len(bins) - 0.4)
+        axes.set_xlabel("distance [m]")
+        axes.set_ylabel(label)
+        axes.grid(axis="y", color="0.9")
+        axes.set_axisbelow(True)
+    return finish()
+
+
+def draw_yaw(results):
+    answers = [r for r in posed(results) if r["translation_error_m"] is not None
+               and yaw_of(r["bin"]) is not None]
+    if not answers:
+        return None
+    methods = names_of(answers, "method")
+    panels, finish = make_panels(2, len(methods), 2.6)
+    for axes, (column, label) in zip(panels, ERRORS):
+        for method in methods:
+            style = style_of(methods, method)
+            by_yaw = {}
+            for r in answers:
+                if r["method"] == method:
+                    by_yaw.setdefault(yaw_of(r["bin"]), []).append(max(r[column], FLOOR))
+            yaws = sorted(by_yaw)
+            axes.plot(yaws, [quantile(by_yaw[y], 0.5) for y in yaws], marker="o", markersize=3,
+                      label=method, **style)
+            axes.fill_between(yaws, [quantile(by_yaw[y], 0.25) for y in yaws],
+                              [quantile(by_yaw[y], 0.75) for y in yaws], color=style["color"],
+                              alpha=0.15, linewidth=0)
+        axes.set_yscale("log")
+        axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(steps=[1, 3, 6, 10]))
+        axes.set_xlabel("added yaw [deg]")
+        axes.set_ylabel(label)
+        axes.grid(color="0.9")
+    return finish()
+
+
+def draw_tilt(results):
+    pairs = {(r["set"], r["bin"], r["pair"]): r for r in results
+             if r["true_tilt_deg"] is not None and r["true_yaw_deg"] is not None}
+    if not pairs:
+        return None
+    figure, panels = plt.subplots(1, 2, figsize=(7.0, 2.6), layout="constrained", sharey=True)
+    tilts = [r["true_tilt_deg"] for r in pairs.values()]
+    yaws = [abs(r["true_yaw_deg"]) for r in pairs.values()]
+    # As many bins for both, so that the shares compare.
+    top = math.ceil(max(max(tilts), 0.5) * 2) / 2
+    for axes, values, end, label in ((panels[0], tilts, top, "relative roll-pitch [deg]"),
+                                     (panels[1], yaws, 180.0, "relative yaw [deg]")):
+        axes.hist(values, bins=[end * i / 18 for i in range(19)],
+                  weights=[100 / len(values)] * len(values), color="tab:blue", edgecolor="white",
+                  linewidth=0.5)
+        axes.set_xlabel(label)
+        axes.set_xlim(0, end)
+        median = quantile(values, 0.5)
+        axes.axvline(median, color="black", linewidth=1, linestyle="--")
+        axes.text(0.97, 0.93, f"median {median:.2f} deg", ha="right", va="top",
+                  transform=axes.transAxes, fontsize="small")
+    panels[0].set_ylabel("pairs [%]")
+    panels[1].set_xticks(range(0, 181, 30))
+    return figure
+
+
+def order_stages(results):
+    """A stage comes before those that it comes before wherever it first comes."""
+    stages = []
+    for result in results:
+        own = list(result["stages"])
+        for i, stage in enumerate(own):
+            if stage not in stages:
+                later = [stages.index(other) for other in own[i + 1:] if other in stages]
+                stages.insert(min(later, default=len(stages)), stage)
+    return stages
+
+
+def draw_timing(results):
+    results = [r for r in results if r["status"] != "unreadable" and r["stages"]]
+    if not results:
+        return None
+    methods, stages = names_of(results, "method"), order_stages(results)
+    panels, finish = make_panels(2, len(stages), 0.6 + 0.25 * len(methods))
+    for axes, left_out in zip(panels, ((), FRONT_END)):
+        ends = [0.0] * len(methods)
+        for i, stage in enumerate(stages):
+            if stage in left_out:
+                continue
+            medians = [quantile([r["stages"].get(stage, 0.0) for r in results
+                                 if r["method"] == method], 0.5) for method in methods]
+            axes.barh(methods, medians, left=ends, label=stage, color=plt.get_cmap("tab20")(i % 20),
+                      hatch=("", "//", "..")[i // 20 % 3], edgecolor="white", linewidth=0.3)
+            ends = [end + median for end, median in zip(ends, medians)]
+        for i, end in enumerate(ends):
+            axes.text(end, i, f" {end:.3g}", va="center", fontsize="small")
+        axes.set_xlim(0, 1.2 * max(max(ends), 1e-6))
+        axes.invert_yaxis()
+    panels[1].set_yticks(range(len(methods)), [""] * len(methods))
+    panels[0].set_xlabel("all stages, median [ms]")
+    panels[1].set_xlabel("after matching, median [ms]")
+    return finish()
+
+
+def draw_recall(results):
+    results = posed(results)
+    if not results:
+        return None
+    methods = names_of(results, "method")
+    panels, finish = make_panels(2, len(methods), 2.6)
+    for axes, (column, _), end, label in zip(panels, ERRORS, (3.0, 15.0),
+                                             ("translation error allowed [m]",
+                                              "rotation error allowed [deg]")):
+        for method in methods:
+            own = [r for r in results if r["method"] == method]
+            errors = sorted(r[column] for r in own if r[column] is not None)
+            shares = [100 * (i + 1) / len(own) for i in range(len(errors))]
+            # A step at each error, and on to the end.
+            num = sum(e <= end for e in errors)
+            x = [0.0, *errors[:num], end]
+            y = [0.0, *shares[:num], shares[num - 1] if num else 0.0]
+            axes.step(x, y, where="post", label=method, **style_of(methods, method))
+        axes.set_xlim(0, end)
+        axes.set_ylim(0, 103)
+        axes.set_xlabel(label)
+        axes.grid(color="0.9")
+    panels[0].set_ylabel("pairs [%]")
+    return finish()
+
+
+FIGURES = {"success": draw_success, "distance": draw_distance, "yaw": draw_yaw, "tilt": draw_tilt,
+           "timing": draw_timing, "recall": draw_recall}
+
+
+def main(args):
+    parser = Parser(prog="draw_experiment.py", description=__doc__, allow_abbrev=False,
+                    formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("run", metavar="RUN", help="folder with results.csv")
+    parser.add_argument("--output", metavar="FOLDER", help="for the figures (default: RUN)")
+    parser.add_argument("--figures", default=",".join(FIGURES), metavar="A,B",
+                        help="which ones (default: all)")
+    options = parser.parse_args(args)
+    chosen = options.figures.split(",")
+    for name in chosen:
+        if name not in FIGURES:
+            raise BadInput(f"--figures: there is no {name!r}; there are {','.join(FIGURES)}")
+    results = read_results(os.path.join(options.run, "results.csv"))
+    folder = options.output or options.run
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise BadInput(f"{folder}: {error.strerror}") from None
+    # Fonts that journals take.
+    plt.rcParams.update({"pdf.fonttype": 42, "font.size": 9})
+    for name in chosen:
+        figure = FIGURES[name](results)
+        if figure is None:
+            continue
+        for suffix, metadata in (("pdf", {"CreationDate": None}), ("png", {"Software": None})):
+            path = os.path.join(folder, f"{name}.{suffix}")
+            try:
+                figure.savefig(path, dpi=150, metadata=metadata)
+            except OSError as error:
+                raise BadInput(f"{path}: {error.strerror}") from None
+            print(path)
+        plt.close(figure)
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except BadInput as problem:
+        print(f"draw_experiment.py: {problem}", file=sys.stderr)
+        sys.exit(2)
