@@ -116,7 +116,7 @@ TEST(FindLoopsTest, AreThoseOfTheDefinition) {
   for (const int frame : {17, 18, 200}) data.world_from_sensor.erase(frame);
   for (const auto& [gap, path] : {std::pair(100, 50.0),
                                   std::pair(10, 90.0),
-                                  std::pair(200, 0.0),
+                                  std::pair(152, 0.0),
                                   std::pair(0, 0.0)}) {
     const DistanceBin bin = {2.0, 5.0};
     LoopOptions options;
@@ -216,6 +216,10 @@ TEST(SelectLoopPairsTest, SeedDecidesAndOtherBinsDoNot) {
   options.bins = {{8.0, 10.0}};
   EXPECT_EQ(NamesOf(Select(data, options).tasks),
             std::vector<std::string>(names.begin() + 60, names.end()));
+  options.bins = {{7.9999, 10.0}};
+  EXPECT_NE(NamesOf(Select(data, options).tasks),
+            std::vector<std::string>(names.begin() + 60, names.end()));
+  options.bins = {{8.0, 10.0}};
   // Targets are drawn, not always the first or the last of a source's.
   options.max_pairs_per_bin = 0;
   std::map<int, std::vector<int>> targets;
