@@ -212,7 +212,7 @@ class CompareKittiTest(unittest.TestCase):
         self.assertTrue(math.isnan(found[3][2]))
         text = compare_kitti.format_ratios(real, [("05", simulated)])
         self.assertIn("05 / real", text)
-        self.assertIn("0-2.5          0.80     1.60        2.00", text)
+        self.assertIn("0-2.5           0.80     1.60        2.00", text)
         self.assertIn("within a factor of 1.5: 2 of 6", text)
 
     def test_close_is_the_same_both_ways(self):
