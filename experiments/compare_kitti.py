@@ -9,6 +9,9 @@ Runs quatro_register on pairs with a known pose, and prints by distance the
 medians of how many voxels of 0.3 m a scan has, how many mutual matches there
 are, and the share of these that the true pose brings within 0.6 m.
 
+Then the same of each simulated list as shares of the real ones together, and how many of these are
+within a factor of 1.5.
+
 A list is a pairs.csv as run_pairs.py reads it, or a folder in KITTI's layout, of
 which pairs of frames are drawn. Of a real list, scans of less than --min_points
 are left out: they have been thinned. Exit code: 0; 2 if a flag or a file is wrong.
@@ -30,6 +33,7 @@ from run_pairs import BadInput, read_pairs
 
 BINS = (0.0, 2.5, 7.5, 12.5, 17.5, 25.0, 40.0)  # [m]
 MAX_ERROR = 0.6  # Of a true match [m].
+CLOSE = 1.5  # A ratio within 1/1.5 .. 1.5 is close.
 
 Pair = collections.namedtuple("Pair", "source target pose")  # pose: (R, t)
 
@@ -155,11 +159,52 @@ def format_table(columns):
         for _, by_bin in columns:
             group = by_bin.get(i, [])
             if group:
-                voxels, matches, share = (statistics.median(x) for x in zip(*group))
+                voxels, matches, share = medians(group)
                 line += f"{len(group):6}{voxels:9.0f}{matches:9.0f}{100 * share:12.1f}"
             else:
                 line += f"{'-':>6}{'-':>9}{'-':>9}{'-':>12}"
         lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
+def medians(group):
+    """(voxels, matches, share of true matches)"""
+    return tuple(statistics.median(values) for values in zip(*group))
+
+
+def pool(by_bins):
+    """All that several lists have in each bin."""
+    together = collections.defaultdict(list)
+    for by_bin in by_bins:
+        for i, group in by_bin.items():
+            together[i] += group
+    return together
+
+
+def ratios(real, simulated):
+    """Bin -> simulated / real of voxels, matches and true share, where both have pairs. No
+    number of what is real is 0, but for the share: its ratio is then nan."""
+    return {i: tuple(s / r if r else math.nan
+                     for r, s in zip(medians(real[i]), medians(simulated[i])))
+            for i in sorted(real) if real[i] and simulated.get(i)}
+
+
+def is_close(ratio):
+    return 1.0 / CLOSE <= ratio <= CLOSE
+
+
+def format_ratios(real, simulated):
+    """One line a distance for each simulated (name, by_bin)."""
+    lines = []
+    for name, by_bin in simulated:
+        of_bins = ratios(real, by_bin)
+        flat = [ratio for row in of_bins.values() for ratio in row]
+        lines += ["", f"{name} / real",
+                  f"{'distance m':11}{'voxels':>9}{'matches':>9}{'true %':>12}"]
+        for i, row in of_bins.items():
+            label = f"{BINS[i]:g}-{BINS[i + 1]:g}"
+            lines.append(f"{label:11}{row[0]:9.2f}{row[1]:9.2f}{row[2]:12.2f}")
+        lines.append(f"within a factor of {CLOSE:g}: {sum(map(is_close, flat))} of {len(flat)}")
     return "\n".join(lines) + "\n"
 
 
@@ -196,6 +241,10 @@ def main(args):
         name = ("real " if is_real else "simulated ") + os.path.basename(str(path).rstrip("/"))
         columns.append((name, summarize(pairs, name, options.program, flags)))
     sys.stdout.write(format_table(columns))
+    num_real = len(options.real)
+    if 0 < num_real < len(columns):
+        sys.stdout.write(format_ratios(pool(by_bin for _, by_bin in columns[:num_real]),
+                                       columns[num_real:]))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_DRAW_EVENLY_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_DRAW_EVENLY_H_
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -22,11 +23,11 @@ inline std::vector<std::size_t> DrawEvenly(std::size_t n,
   const double offset = random.Uniform();
   std::vector<std::size_t> drawn;
   for (std::size_t k = 0; k < num; ++k) {
-    drawn.push_back(
-        num == n ? k
-                 : static_cast<std::size_t>((static_cast<double>(k) + offset) *
-                                            static_cast<double>(n) /
-                                            static_cast<double>(num)));
+    const double at = (static_cast<double>(k) + offset) *
+                      static_cast<double>(n) / static_cast<double>(num);
+    // k + u may round up to max.
+    drawn.push_back(num == n ? k
+                             : std::min(n - 1, static_cast<std::size_t>(at)));
   }
   return drawn;
 }

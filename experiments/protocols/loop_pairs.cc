@@ -24,26 +24,31 @@ void SelectBin(const SequenceData& data,
                PairSelection* selection) {
   const std::vector<Loop> loops = FindLoops(data, bin, options.loop);
   Random random = RandomOf(options.seed, bin);
-  std::vector<Loop> one_a_source;
+  const auto max_per_source =
+      static_cast<std::size_t>(options.max_pairs_per_source);
+  std::vector<Loop> some_a_source;
   for (std::size_t begin = 0; begin < loops.size();) {
     std::size_t end = begin + 1;
     while (end < loops.size() && loops[end].source == loops[begin].source) {
       ++end;
     }
-    one_a_source.push_back(loops[begin + random.Below(end - begin)]);
+    for (const std::size_t i :
+         DrawEvenly(end - begin, max_per_source, random)) {
+      some_a_source.push_back(loops[begin + i]);
+    }
     begin = end;
   }
   const auto max = static_cast<std::size_t>(options.max_pairs_per_bin);
-  for (const std::size_t i : DrawEvenly(one_a_source.size(), max, random)) {
-    const Loop& loop = one_a_source[i];
+  for (const std::size_t i : DrawEvenly(some_a_source.size(), max, random)) {
+    const Loop& loop = some_a_source[i];
     PairTask task = *MakePairTask(data, loop.source, loop.target);
     task.bin = bin.Name();
     selection->tasks.push_back(std::move(task));
   }
-  if (one_a_source.empty() || one_a_source.size() < max) {
+  if (some_a_source.empty() || some_a_source.size() < max) {
     selection->notes.push_back(
-        data.name + ": " + std::to_string(one_a_source.size()) +
-        " frames have a loop of " + bin.Name() +
+        data.name + ": " + std::to_string(some_a_source.size()) + " pairs of " +
+        bin.Name() +
         (max > 0 ? ", not " + std::to_string(max) : std::string()));
   }
 }
@@ -68,6 +73,9 @@ bool LoopPairOptions::IsValid(std::string* error) const {
     problem << "bins is empty, must have one";
   } else if (max_pairs_per_bin < 0) {
     problem << "max_pairs_per_bin = " << max_pairs_per_bin << ", must be >= 0";
+  } else if (max_pairs_per_source < 0) {
+    problem << "max_pairs_per_source = " << max_pairs_per_source
+            << ", must be >= 0";
   }
   *error = problem.str();
   if (!error->empty()) return false;

@@ -50,17 +50,21 @@ struct LoopPairOptions {
 
   // Of each bin; 0: as many as there are.
   int max_pairs_per_bin = 100;
+
+  // In each bin, with one frame as the source; 0: as many as there are. Pairs
+  // of one source are alike. KITTI 07 has but 86 sources at 9-12 m.
+  int max_pairs_per_source = 1;
   uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;
 };
 
-// Bin by bin in the order given, and by source in each. No frame is the source
-// of two pairs of a bin: its target is drawn from all it has there, and the
-// sources evenly from those that have any. What is drawn for a bin depends on
-// nothing but the sequence, its bounds, the number and the seed. Nullopt with
-// *error set if the options are invalid; bins with fewer loops than asked for
-// are noted.
+// Bin by bin in the order given, and by source in each. The targets are drawn
+// evenly (draw_evenly.h) from all that a source has in the bin, and the pairs
+// then from those of all sources. What is drawn for a bin depends on nothing
+// but the sequence, its bounds, the numbers and the seed. Nullopt with *error
+// set if the options are invalid; bins with fewer pairs than asked for are
+// noted.
 std::optional<PairSelection> SelectLoopPairs(const SequenceData& data,
                                              const LoopPairOptions& options,
                                              std::string* error);

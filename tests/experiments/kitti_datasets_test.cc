@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "experiments/datasets/any_sequence.h"
 #include "experiments/datasets/kitti_odometry.h"
 #include "experiments/datasets/kitti_raw.h"
 #include "experiments/datasets/oxts.h"
@@ -432,6 +434,32 @@ TEST_F(KittiRawTest, BadInputIsNamed) {
   Put("d/calib_imu_to_velo.txt", "R: 1 0 0 0 1 0 0 0 1\nT: 1 2 3\n");
   EXPECT_FALSE(ReadKittiRaw(PathOf("d"), &error));
   ExpectLine(error, PathOf("d/oxts/data"), "No such file");
+}
+
+TEST_F(KittiTest, AnySequenceIsReadByTheLayoutOfItsFolder) {
+  Put("all/kitti/sequences/00/calib.txt", kCalibration);
+  Put("all/kitti/poses/00.txt", kIdentity);
+  PutScan("all/kitti/sequences/00/velodyne/000000.bin");
+  PutScan("all/raw/velodyne_points/data/0000000000.bin");
+  Put("all/calib_imu_to_velo.txt", "R: 1 0 0 0 1 0 0 0 1\nT: 1 2 3\n");
+  Put("all/raw/" + OxtsName(0), Oxts(InsReading()));
+  Put("all/hd_b1/sensors/records_lidar.txt", "1, lidar0, a.pcd\n");
+  Put("all/hd_b1/sensors/trajectories.txt", "1, lidar0, 1,0,0,0, 0,0,0\n");
+  std::string error;
+  for (const auto& [folder, sequence, name] :
+       {std::tuple("all/kitti", "00", "00"),
+        std::tuple("all/kitti/sequences/00", "", "00"),
+        std::tuple("all", "raw", "raw"),
+        std::tuple("all/raw", "", "raw"),
+        std::tuple("all", "hd_b1", "hd_b1"),
+        std::tuple("all/hd_b1", "", "hd_b1")}) {
+    const auto data = ReadAnySequence({PathOf(folder), sequence}, &error);
+    ASSERT_TRUE(data) << error;
+    EXPECT_EQ(data->name, name);
+    EXPECT_EQ(data->world_from_sensor.size(), 1u) << folder;
+  }
+  EXPECT_FALSE(ReadAnySequence({PathOf("none"), ""}, &error));
+  ExpectLine(error, PathOf("none"), "is not a folder");
 }
 
 // The official poses as an INS beside SemanticKITTI's as truth, and what they

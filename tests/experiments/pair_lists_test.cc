@@ -72,11 +72,12 @@ TEST_F(PairListTest, CsvWithTruthInsAndNegatives) {
       "target_rpy_deg,ins_std_deg\n"
       "scans/a.bin,scans/b.bin,one,0,0,0.70710678,0.70710678,1,2,3,\"a, b\","
       "\"1,2,90\",\"0,-3,0\",0.5\n"
-      "scans/a.bin,scans/c.bin,two,,,,,,,,,,,\n");
+      "scans/a.bin,scans/c.bin,two,,,,,,,,,,,\n"
+      "scans/b.bin,scans/c.bin,two,,,,,,,,,,,\n");
   std::string error;
   const auto pairs = ReadPairsCsv(PathOf("pairs.csv"), &error);
   ASSERT_TRUE(pairs) << error;
-  ASSERT_EQ(pairs->tasks.size(), 2u);
+  ASSERT_EQ(pairs->tasks.size(), 3u);
   const PairTask& one = pairs->tasks[0];
   EXPECT_EQ(one.name, "one/000001");
   EXPECT_EQ(one.set, "one");

@@ -2,9 +2,11 @@
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
 """experiments/run_pairs.py, compare_methods.py, list_wrong_pairs.py and
-calibrate_verdict.py against a stand-in for quatro_register."""
+calibrate_verdict.py against a stand-in for quatro_register; what compare_kitti.py
+makes of its measurements."""
 import csv
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -15,6 +17,7 @@ import unittest
 sys.dont_write_bytecode = True
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
 sys.path.insert(0, str(SCRIPTS))
+import compare_kitti  # noqa: E402
 import list_wrong_pairs  # noqa: E402
 import run_pairs  # noqa: E402
 
@@ -244,6 +247,45 @@ class CalibrationTest(unittest.TestCase):
         low, high = self.calibration.wilson(1, 372)
         self.assertAlmostEqual(low, 0.00047, places=4)
         self.assertAlmostEqual(high, 0.0151, places=4)
+
+
+class CompareKittiTest(unittest.TestCase):
+    def test_bins_are_half_open(self):
+        self.assertEqual([compare_kitti.bin_of(d) for d in (0.0, 2.49, 2.5, 39.9, 40.0)],
+                         [0, 0, 1, 5, None])
+
+    def test_ratios_are_of_medians_where_both_have_pairs(self):
+        real = compare_kitti.pool([{0: [(100, 10, 0.5)], 2: [(1, 1, 1)]},
+                                   {0: [(300, 30, 0.1), (200, 20, 0.3)], 3: [(9, 9, 0.0)]}])
+        simulated = {0: [(150, 30, 0.6), (170, 34, 0.6)], 1: [(5, 5, 5)], 2: [],
+                     3: [(9, 18, 0.1)]}
+        found = compare_kitti.ratios(real, simulated)
+        self.assertEqual(list(found), [0, 3])
+        for ratio, expected in zip(found[0], (160 / 200, 32 / 20, 0.6 / 0.3)):
+            self.assertAlmostEqual(ratio, expected)
+        self.assertEqual(found[3][:2], (1.0, 2.0))
+        self.assertTrue(math.isnan(found[3][2]))
+        text = compare_kitti.format_ratios(real, [("05", simulated)])
+        self.assertIn("05 / real", text)
+        self.assertIn("0-2.5           0.80     1.60        2.00", text)
+        self.assertIn("within a factor of 1.5: 2 of 6", text)
+
+    def test_close_is_the_same_both_ways(self):
+        for ratio, expected in ((1.0, True), (1.5, True), (1.51, False), (0.67, True),
+                                (0.66, False), (math.nan, False)):
+            self.assertEqual(compare_kitti.is_close(ratio), expected, ratio)
+
+    def test_poses_of_a_sequence_are_the_sensors(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            # z of cam0 is ahead, x to the right: 3 m along z is 3 m ahead.
+            (folder / "calib.txt").write_text("Tr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n")
+            (folder / "poses.txt").write_text("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 3\n")
+            pair, = compare_kitti.pairs_of_sequence(folder, 8, 1)
+        self.assertEqual(pathlib.Path(pair.source).name, "000001.bin")
+        rotation, translation = pair.pose
+        self.assertEqual(rotation, [[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        self.assertEqual(translation, [3, 0, 0])
 
 
 if __name__ == "__main__":

@@ -116,7 +116,7 @@ TEST(FindLoopsTest, AreThoseOfTheDefinition) {
   for (const int frame : {17, 18, 200}) data.world_from_sensor.erase(frame);
   for (const auto& [gap, path] : {std::pair(100, 50.0),
                                   std::pair(10, 90.0),
-                                  std::pair(200, 0.0),
+                                  std::pair(152, 0.0),
                                   std::pair(0, 0.0)}) {
     const DistanceBin bin = {2.0, 5.0};
     LoopOptions options;
@@ -216,6 +216,10 @@ TEST(SelectLoopPairsTest, SeedDecidesAndOtherBinsDoNot) {
   options.bins = {{8.0, 10.0}};
   EXPECT_EQ(NamesOf(Select(data, options).tasks),
             std::vector<std::string>(names.begin() + 60, names.end()));
+  options.bins = {{7.9999, 10.0}};
+  EXPECT_NE(NamesOf(Select(data, options).tasks),
+            std::vector<std::string>(names.begin() + 60, names.end()));
+  options.bins = {{8.0, 10.0}};
   // Targets are drawn, not always the first or the last of a source's.
   options.max_pairs_per_bin = 0;
   std::map<int, std::vector<int>> targets;
@@ -234,6 +238,37 @@ TEST(SelectLoopPairsTest, SeedDecidesAndOtherBinsDoNot) {
   EXPECT_LT(num_first, num / 2);
   EXPECT_GT(num_last, num / 20);
   EXPECT_LT(num_last, num / 2);
+}
+
+TEST(SelectLoopPairsTest, SeveralOfASourceAreSpread) {
+  const SequenceData data = Rounds(900, 40.0, 0.8);
+  LoopPairOptions options;
+  options.bins = {{0.0, 12.0}};
+  options.max_pairs_per_bin = 0;
+  const std::size_t num_loops =
+      FindLoops(data, options.bins[0], options.loop).size();
+  const std::size_t num_sources = Select(data, options).tasks.size();
+  options.max_pairs_per_source = 3;
+  const PairSelection three = Select(data, options);
+  EXPECT_GT(three.tasks.size(), 2 * num_sources);
+  EXPECT_LE(three.tasks.size(), 3 * num_sources);
+  std::map<int, std::vector<int>> targets;
+  for (const PairTask& task : three.tasks) {
+    const auto [source, target] = FramesOf(task);
+    targets[source].push_back(target);
+  }
+  EXPECT_EQ(targets.size(), num_sources);
+  for (const auto& [source, drawn] : targets) {
+    ASSERT_LE(drawn.size(), 3u);
+    for (std::size_t i = 1; i < drawn.size(); ++i) {
+      EXPECT_GT(drawn[i], drawn[i - 1]) << source;
+    }
+    if (source > 500 && source < 600) {
+      EXPECT_GT(drawn[2] - drawn[0], 10);
+    }
+  }
+  options.max_pairs_per_source = 0;
+  EXPECT_EQ(Select(data, options).tasks.size(), num_loops);
 }
 
 // Where the world's origin is changes no pair.
@@ -262,8 +297,7 @@ TEST(SelectLoopPairsTest, TooFewAreNotedAndNoneIsNoError) {
   options.max_pairs_per_bin = 10000;
   PairSelection selection = Select(data, options);
   EXPECT_GT(selection.tasks.size(), 300u);
-  EXPECT_THAT(selection.notes,
-              Contains("06: 0 frames have a loop of 300-400 m, not 10000"));
+  EXPECT_THAT(selection.notes, Contains("06: 0 pairs of 300-400 m, not 10000"));
   EXPECT_EQ(selection.notes.size(), 2u);
   EXPECT_THAT(Select(SequenceData(), options).tasks, IsEmpty());
 }
@@ -282,6 +316,10 @@ TEST(SelectLoopPairsTest, InvalidOptionsAreNamed) {
   options.max_pairs_per_bin = -1;
   EXPECT_FALSE(SelectLoopPairs({}, options, &error));
   EXPECT_THAT(error, HasSubstr("max_pairs_per_bin = -1"));
+  options = {};
+  options.max_pairs_per_source = -1;
+  EXPECT_FALSE(SelectLoopPairs({}, options, &error));
+  EXPECT_THAT(error, HasSubstr("max_pairs_per_source = -1"));
   options = {};
   options.loop.min_frame_gap = -1;
   EXPECT_FALSE(SelectLoopPairs({}, options, &error));
