@@ -3,6 +3,7 @@
 
 #include "experiments/tables/run_tables.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "experiments/tables/curve_tables.h"
@@ -34,10 +35,10 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
                                     const TableOptions& options) {
   TableOptions plain = options;
   plain.with_intervals = false;
-  plain.with_all_averages = false;
+  plain.with_details = false;
   TableOptions wide = options;
   wide.with_intervals = true;
-  wide.with_all_averages = true;
+  wide.with_details = true;
   std::vector<RunTable> tables;
   const auto add = [&](const std::string& name,
                        const std::string& caption,
@@ -63,11 +64,14 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
     return MakeBinTable(results, o);
   });
   const auto methods = MethodsOf(once);
+  const bool has_quatro =
+      std::find(methods.begin(), methods.end(), "quatro") != methods.end();
+  const std::string reference =
+      has_quatro || methods.empty() ? "quatro" : methods[0];
   add("significance",
       "Paired tests; p-values are not adjusted for their number.",
       [&](const TableOptions& o) {
-        return MakeSignificanceTable(
-            once, methods.empty() ? "" : methods[0], o);
+        return MakeSignificanceTable(once, reference, o);
       });
   add("recall", "Recall [%] over the error allowed.", [&](const auto&) {
     return once.empty() ? Table{} : MakeRecallTable(once);

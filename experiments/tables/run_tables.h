@@ -32,7 +32,7 @@ struct TableFile {
 //   table_one      success by set, true distances of 9-12 m
 //   table_three    t_avg and r_avg of set 06 at 0-2, 4-6 and 8-10 m
 //   summary        every metric by set; by_bin the same by bin
-//   significance   the first method against the others
+//   significance   quatro, or else the first method, against the others
 //   recall, tilt   for figures
 //   timing         medians by stage
 //

@@ -277,6 +277,21 @@ TEST(TimingTable, IsByHand) {
               "b", "2", "4.50", "9.00", "4.50", "", "18.00", "", "22.50")));
 }
 
+TEST(TimingTable, ForPrintHasTheSumsAlone) {
+  const Table table = MakeTimingTable(TimedResults(), {.with_details = false});
+  EXPECT_THAT(table.columns,
+              ElementsAre("method",
+                          "pairs",
+                          "sum ms / front end",
+                          "sum ms / rest",
+                          "sum ms / total"));
+  EXPECT_THAT(table.rows[0], ElementsAre("a", "3", "8.00", "1.00", "10.00"));
+  const auto wide = RowOf(
+      MakeTimingTable(TimedResults(), {.with_intervals = true}), "a", "3");
+  EXPECT_EQ(wide.at("sum ms / total low"), "5.00");
+  EXPECT_EQ(wide.at("sum ms / total high"), "15.00");
+}
+
 TEST(TimingTable, StagesAreInTheOrderOfTheMethods) {
   auto results = Results();
   results[0].stage_times = {{"voxels", 1}, {"ransac", 1}, {"judge", 1}};
@@ -384,6 +399,20 @@ TEST(RunTables, AreTheFilesOfARun) {
             2u + 6u + 3u * 3u + 2u * (4u * 3u + 2u));
   EXPECT_EQ(RowOf(tables[1].table, "FGR", "quoted").at("4-6 m / t_avg m"),
             "0.103");
+}
+
+TEST(RunTables, QuatroIsTheReferenceIfItIsThere) {
+  const auto reference_of = [](const std::vector<PairResult>& results) {
+    for (const RunTable& table : MakeRunTables(results, {})) {
+      if (table.name == "significance") return table.table.rows.at(0).at(0);
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(reference_of({ResultOff("a", "1", 0.1, 1.0),
+                          ResultOff("quatro", "1", 0.1, 1.0)}),
+            "quatro");
+  EXPECT_EQ(reference_of(Results()), "a");
+  EXPECT_EQ(reference_of({ResultOff("quatro", "1", 0.1, 1.0)}), "none");
 }
 
 TEST(RunTables, OfNothingAreNone) {
