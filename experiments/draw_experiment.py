@@ -368,7 +368,7 @@ def main(args):
     parser = Parser(prog="draw_experiment.py", description=__doc__, allow_abbrev=False,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", metavar="RUN", help="folder with results.csv")
-    parser.add_argument("--output", metavar="FOLDER", help="for the figures (default: RUN)")
+    parser.add_argument("--output", metavar="FOLDER", help="for the figures (default: RUN/figures)")
     parser.add_argument("--figures", default=",".join(FIGURES), metavar="A,B",
                         help="which ones (default: all)")
     options = parser.parse_args(args)
@@ -377,7 +377,7 @@ def main(args):
         if name not in FIGURES:
             raise BadInput(f"--figures: there is no {name!r}; there are {','.join(FIGURES)}")
     results = read_results(os.path.join(options.run, "results.csv"))
-    folder = options.output or options.run
+    folder = options.output or os.path.join(options.run, "figures")
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:

@@ -16,6 +16,19 @@
 namespace quatro {
 namespace {
 
+// Of some values, whose order it changes.
+double QuantileInPlace(std::vector<double>* values, double share) {
+  const double place = share * static_cast<double>(values->size() - 1);
+  const auto below = static_cast<std::ptrdiff_t>(place);
+  const auto at = values->begin() + below;
+  std::nth_element(values->begin(), at, values->end());
+  const double rest = place - static_cast<double>(below);
+  if (rest == 0.0) return *at;
+  const double above = *std::min_element(at + 1, values->end());
+  return *at + rest * (above - *at);
+}
+
+// `statistic` may change the order of what it is given.
 template <typename Statistic>
 std::optional<Interval> Bootstrap(const std::vector<double>& values,
                                   const BootstrapOptions& options,
@@ -28,7 +41,7 @@ std::optional<Interval> Bootstrap(const std::vector<double>& values,
   std::vector<double> outcomes;
   for (int i = 0; i < options.num_samples; ++i) {
     for (double& value : drawn) value = values[random.Below(values.size())];
-    outcomes.push_back(*statistic(drawn));
+    outcomes.push_back(statistic(&drawn));
   }
   const double tail = 0.5 * (1.0 - options.confidence);
   return Interval{*Quantile(outcomes, tail), *Quantile(outcomes, 1.0 - tail)};
@@ -86,24 +99,21 @@ std::optional<double> Median(std::vector<double> values) {
 std::optional<double> Quantile(std::vector<double> values, double share) {
   CHECK(share >= 0.0 && share <= 1.0) << share;
   if (values.empty()) return std::nullopt;
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::ptrdiff_t>(place);
-  const auto at = values.begin() + below;
-  std::nth_element(values.begin(), at, values.end());
-  const double rest = place - static_cast<double>(below);
-  if (rest == 0.0) return *at;
-  const double above = *std::min_element(at + 1, values.end());
-  return *at + rest * (above - *at);
+  return QuantileInPlace(&values, share);
 }
 
 std::optional<Interval> BootstrapMean(const std::vector<double>& values,
                                       const BootstrapOptions& options) {
-  return Bootstrap(values, options, Mean);
+  return Bootstrap(values, options, [](std::vector<double>* drawn) {
+    return *Mean(*drawn);
+  });
 }
 
 std::optional<Interval> BootstrapMedian(const std::vector<double>& values,
                                         const BootstrapOptions& options) {
-  return Bootstrap(values, options, Median);
+  return Bootstrap(values, options, [](std::vector<double>* drawn) {
+    return QuantileInPlace(drawn, 0.5);
+  });
 }
 
 }  // namespace quatro

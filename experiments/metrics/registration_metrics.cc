@@ -15,7 +15,7 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 
 ErrorAverages Average(const std::vector<PairError>& errors,
-                      const BootstrapOptions& bootstrap) {
+                      const std::optional<BootstrapOptions>& bootstrap) {
   std::vector<double> translation, squared, rotation, yaw;
   for (const PairError& error : errors) {
     translation.push_back(error.translation);
@@ -31,11 +31,12 @@ ErrorAverages Average(const std::vector<PairError>& errors,
   averages.translation_as_printed = Mean(squared);  // Equation (3)
   averages.median_translation = Median(translation);
   averages.median_rotation = Median(rotation);
-  averages.translation_interval = BootstrapMean(translation, bootstrap);
-  averages.rotation_interval = BootstrapMean(rotation, bootstrap);
+  if (!bootstrap) return averages;
+  averages.translation_interval = BootstrapMean(translation, *bootstrap);
+  averages.rotation_interval = BootstrapMean(rotation, *bootstrap);
   averages.median_translation_interval =
-      BootstrapMedian(translation, bootstrap);
-  averages.median_rotation_interval = BootstrapMedian(rotation, bootstrap);
+      BootstrapMedian(translation, *bootstrap);
+  averages.median_rotation_interval = BootstrapMedian(rotation, *bootstrap);
   return averages;
 }
 
@@ -88,9 +89,10 @@ std::optional<double> RegistrationMetrics::SuccessRate(
          static_cast<double>(num_posed);
 }
 
-RegistrationMetrics ComputeMetrics(const std::vector<PairResult>& results,
-                                   const std::vector<SuccessLimit>& limits,
-                                   const BootstrapOptions& bootstrap) {
+RegistrationMetrics ComputeMetrics(
+    const std::vector<PairResult>& results,
+    const std::vector<SuccessLimit>& limits,
+    const std::optional<BootstrapOptions>& bootstrap) {
   CHECK(!limits.empty());
   RegistrationMetrics metrics;
   metrics.num_successes.resize(limits.size());
@@ -117,9 +119,10 @@ RegistrationMetrics ComputeMetrics(const std::vector<PairResult>& results,
           result.IsWithin(limits[i].translation, limits[i].rotation);
     }
   }
+  const double confidence = bootstrap.value_or(BootstrapOptions()).confidence;
   for (const long num : metrics.num_successes) {
     metrics.success_intervals.push_back(
-        WilsonInterval(num, metrics.num_posed, bootstrap.confidence));
+        WilsonInterval(num, metrics.num_posed, confidence));
   }
   metrics.of_successes = Average(successes, bootstrap);
   metrics.of_all = Average(all, bootstrap);

@@ -83,10 +83,12 @@ struct RegistrationMetrics {
   std::optional<double> SuccessRate(std::size_t limit) const;
 };
 
-// `limits` has at least one.
-RegistrationMetrics ComputeMetrics(const std::vector<PairResult>& results,
-                                   const std::vector<SuccessLimit>& limits,
-                                   const BootstrapOptions& bootstrap = {});
+// `limits` has at least one. Without `bootstrap` averages have no intervals,
+// which take most of the time.
+RegistrationMetrics ComputeMetrics(
+    const std::vector<PairResult>& results,
+    const std::vector<SuccessLimit>& limits,
+    const std::optional<BootstrapOptions>& bootstrap = BootstrapOptions());
 
 // For each of `grid`, the share of the posed pairs whose error is at most so
 // much [m]; 0 of none.

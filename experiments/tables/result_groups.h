@@ -27,8 +27,8 @@ struct TableOptions {
   bool with_intervals = false;
 
   // Averages over all answers beside those over the successes, of yaw, and as
-  // printed, in tables of every metric: for CSV as well.
-  bool with_all_averages = true;
+  // printed; each stage's time: for CSV rather than for print, too.
+  bool with_details = true;
 
   // Rows of what the paper has, where a set or a bin has the paper's name.
   bool with_quoted = true;

@@ -3,6 +3,8 @@
 
 #include "experiments/tables/run_tables.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "experiments/tables/curve_tables.h"
@@ -24,6 +26,29 @@ std::vector<PairResult> OfTableThree(const std::vector<PairResult>& results) {
   return chosen;
 }
 
+// Nothing can be drawn evenly from two overlapping bins at once.
+std::vector<PairResult> OfTableOne(const std::vector<PairResult>& results) {
+  const auto of_bin =
+      SelectResults(results, std::nullopt, std::nullopt, "9-12 m");
+  return of_bin.empty() ? SelectDistance(WithoutRepeats(results), 9.0, 12.0)
+                        : of_bin;
+}
+
+// A set for each bin; none if the bins are others.
+std::vector<PairResult> OfKittiLc(const std::vector<PairResult>& results) {
+  auto bins = BinsOf(results);
+  std::sort(bins.begin(), bins.end());
+  std::vector<PairResult> by_bin;
+  if (bins != std::vector<std::string>{"0-10 m", "10-20 m", "20-30 m"}) {
+    return by_bin;
+  }
+  for (PairResult result : results) {
+    result.set = result.bin;
+    by_bin.push_back(std::move(result));
+  }
+  return by_bin;
+}
+
 bool IsOfAFigure(const std::string& name) {
   return name == "recall" || name == "tilt";
 }
@@ -34,10 +59,10 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
                                     const TableOptions& options) {
   TableOptions plain = options;
   plain.with_intervals = false;
-  plain.with_all_averages = false;
+  plain.with_details = false;
   TableOptions wide = options;
   wide.with_intervals = true;
-  wide.with_all_averages = true;
+  wide.with_details = true;
   std::vector<RunTable> tables;
   const auto add = [&](const std::string& name,
                        const std::string& caption,
@@ -47,11 +72,19 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
   };
 
   const auto once = WithoutRepeats(results);
-  const auto near = SelectDistance(once, 9.0, 12.0);
+  const auto near = OfTableOne(results);
   add("table_one",
       "Success [%], pairs 9-12 m apart, within " + options.limits[0].Name() +
           ".",
       [&](const TableOptions& o) { return MakeSuccessTable(near, o); });
+  const auto lc = OfKittiLc(results);
+  const SuccessLimit lc_limit{2.0, 5.0 * M_PI / 180.0};
+  add("kitti_lc",
+      "Success [%] on kitti_lc, within " + lc_limit.Name() + ".",
+      [&](TableOptions o) {
+        o.limits = {lc_limit};
+        return MakeSuccessTable(lc, o, PublishedKittiLc());
+      });
   const auto three = OfTableThree(results);
   add("table_three",
       "Mean errors over all answers on sequence 06.",
@@ -63,11 +96,14 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
     return MakeBinTable(results, o);
   });
   const auto methods = MethodsOf(once);
+  const bool has_quatro =
+      std::find(methods.begin(), methods.end(), "quatro") != methods.end();
+  const std::string reference =
+      has_quatro || methods.empty() ? "quatro" : methods[0];
   add("significance",
       "Paired tests; p-values are not adjusted for their number.",
       [&](const TableOptions& o) {
-        return MakeSignificanceTable(
-            once, methods.empty() ? "" : methods[0], o);
+        return MakeSignificanceTable(once, reference, o);
       });
   add("recall", "Recall [%] over the error allowed.", [&](const auto&) {
     return once.empty() ? Table{} : MakeRecallTable(once);

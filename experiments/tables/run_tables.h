@@ -29,10 +29,14 @@ struct TableFile {
 
 // Those with rows, of
 //
-//   table_one      success by set, true distances of 9-12 m
+//   table_one      success by set in the bin "9-12 m" or, without it, at true
+//                  distances of 9-12 m
+//   kitti_lc       success within 2 m and 5 deg by bin, if the bins are those
+//   of
+//                  the lists, 0-10, 10-20 and 20-30 m
 //   table_three    t_avg and r_avg of set 06 at 0-2, 4-6 and 8-10 m
 //   summary        every metric by set; by_bin the same by bin
-//   significance   the first method against the others
+//   significance   quatro, or else the first method, against the others
 //   recall, tilt   for figures
 //   timing         medians by stage
 //

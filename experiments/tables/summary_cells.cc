@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace quatro {
 namespace {
@@ -18,7 +19,7 @@ void AddAverageColumns(const std::string& of,
        {"t_avg m", "r_avg deg", "t median m", "r median deg"}) {
     AddColumns(of + " / " + name, options, columns);
   }
-  if (!options.with_all_averages) return;
+  if (!options.with_details) return;
   columns->push_back(of + " / yaw avg deg");
   columns->push_back(of + " / t_avg as printed m2");
 }
@@ -46,7 +47,7 @@ void AddAverageCells(const ErrorAverages& averages,
            3,
            options,
            row);
-  if (!options.with_all_averages) return;
+  if (!options.with_details) return;
   row->push_back(averages.yaw ? NumberCell(kRadian * *averages.yaw, 3) : "");
   row->push_back(NumberCell(averages.translation_as_printed, 4));
 }
@@ -67,15 +68,17 @@ void AddSummaryColumns(const TableOptions& options,
     AddColumns("success % / " + limit.Name(), options, columns);
   }
   AddAverageColumns("successes", options, columns);
-  if (!options.with_all_averages) return;
+  if (!options.with_details) return;
   AddAverageColumns("all answers", options, columns);
 }
 
 void AddSummaryCells(const std::vector<PairResult>& results,
                      const TableOptions& options,
                      std::vector<std::string>* row) {
-  const RegistrationMetrics metrics =
-      ComputeMetrics(results, options.limits, options.bootstrap);
+  const RegistrationMetrics metrics = ComputeMetrics(
+      results,
+      options.limits,
+      options.with_intervals ? std::optional(options.bootstrap) : std::nullopt);
   for (const long count : {metrics.num_pairs,
                            metrics.num_unreadable,
                            metrics.num_apart,
@@ -93,7 +96,7 @@ void AddSummaryCells(const std::vector<PairResult>& results,
              row);
   }
   AddAverageCells(metrics.of_successes, options, row);
-  if (!options.with_all_averages) return;
+  if (!options.with_details) return;
   AddAverageCells(metrics.of_all, options, row);
 }
 

@@ -60,7 +60,8 @@ std::optional<double> MedianOf(const std::vector<PairResult>& results,
 
 Table MakeTimingTable(const std::vector<PairResult>& results,
                       const TableOptions& options) {
-  const auto stages = StagesOf(results);
+  const auto stages =
+      options.with_details ? StagesOf(results) : std::vector<std::string>();
   Table table;
   table.columns = {"method", "pairs"};
   for (const std::string& stage : stages) {
@@ -87,7 +88,8 @@ Table MakeTimingTable(const std::vector<PairResult>& results,
     add(MedianOf(timed, IsFrontEnd));
     add(MedianOf(timed, [](const std::string& s) { return !IsFrontEnd(s); }));
     AddCells(Median(totals),
-             BootstrapMedian(totals, options.bootstrap),
+             options.with_intervals ? BootstrapMedian(totals, options.bootstrap)
+                                    : std::nullopt,
              kMilliseconds,
              2,
              options,

@@ -14,7 +14,8 @@
 
 namespace quatro {
 
-// A row a method, over its readable pairs: how many, the median of each stage,
+// A row a method, over its readable pairs: how many; with options.with_details
+// the median of each stage,
 // in the order in which methods go through them; of voxels, features and
 // matching together ("front end") and of the other stages ("rest"); and of the
 // whole, with its bootstrap interval. A stage that a pair did not get to counts

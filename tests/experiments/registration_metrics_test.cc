@@ -79,6 +79,15 @@ TEST(RegistrationMetrics, AveragesAreByHand) {
   EXPECT_GE(all.translation_interval->high, *all.translation);
 }
 
+TEST(RegistrationMetrics, WithoutBootstrapAreTheSameButForTheIntervals) {
+  const RegistrationMetrics metrics =
+      ComputeMetrics(Mixed(), UsualLimits(), std::nullopt);
+  EXPECT_EQ(metrics.of_all.translation, Metrics(Mixed()).of_all.translation);
+  EXPECT_FALSE(metrics.of_all.translation_interval);
+  EXPECT_TRUE(Metrics(Mixed()).of_all.median_rotation_interval);
+  EXPECT_EQ(metrics.success_intervals[1].low, WilsonInterval(2, 6).low);
+}
+
 TEST(RegistrationMetrics, ALimitIsWithinItself) {
   auto result = ResultOff("m", "a", 2.0, 0.0);
   result.error->rotation = 10.0 * kDegree;

@@ -277,6 +277,21 @@ TEST(TimingTable, IsByHand) {
               "b", "2", "4.50", "9.00", "4.50", "", "18.00", "", "22.50")));
 }
 
+TEST(TimingTable, ForPrintHasTheSumsAlone) {
+  const Table table = MakeTimingTable(TimedResults(), {.with_details = false});
+  EXPECT_THAT(table.columns,
+              ElementsAre("method",
+                          "pairs",
+                          "sum ms / front end",
+                          "sum ms / rest",
+                          "sum ms / total"));
+  EXPECT_THAT(table.rows[0], ElementsAre("a", "3", "8.00", "1.00", "10.00"));
+  const auto wide = RowOf(
+      MakeTimingTable(TimedResults(), {.with_intervals = true}), "a", "3");
+  EXPECT_EQ(wide.at("sum ms / total low"), "5.00");
+  EXPECT_EQ(wide.at("sum ms / total high"), "15.00");
+}
+
 TEST(TimingTable, StagesAreInTheOrderOfTheMethods) {
   auto results = Results();
   results[0].stage_times = {{"voxels", 1}, {"ransac", 1}, {"judge", 1}};
@@ -353,6 +368,7 @@ std::vector<std::string> NamesOf(const std::vector<TableFile>& files) {
 TEST(RunTables, AreTheFilesOfARun) {
   auto results = TimedResults();
   // Table I is of 9-12 m alone.
+  for (PairResult& result : results) result.bin = "all";
   results[0].distance = 5.0;
   results[3].distance = 5.0;
   auto near = In(ResultOff("a", "7", 0.3, 1.0), "06", "4-6 m");
@@ -384,6 +400,60 @@ TEST(RunTables, AreTheFilesOfARun) {
             2u + 6u + 3u * 3u + 2u * (4u * 3u + 2u));
   EXPECT_EQ(RowOf(tables[1].table, "FGR", "quoted").at("4-6 m / t_avg m"),
             "0.103");
+}
+
+const RunTable* Find(const std::vector<RunTable>& tables,
+                     const std::string& name) {
+  for (const RunTable& table : tables) {
+    if (table.name == name) return &table;
+  }
+  return nullptr;
+}
+
+// What is drawn for another bin does not count in Table I.
+TEST(RunTables, TableOneIsOfItsBinIfThereIsOne) {
+  std::vector<PairResult> results = {
+      In(ResultOff("a", "1", 0.1, 1.0), "00", "9-12 m"),
+      In(ResultOff("a", "2", 9.0, 1.0), "00", "8-10 m"),
+      In(ResultOff("a", "3", 9.0, 1.0), "00", "8-10 m")};
+  const auto rate = [&] {
+    const auto tables = MakeRunTables(results, {});
+    return RowOf(Find(tables, "table_one")->table, "a", "measured").at("00");
+  };
+  EXPECT_EQ(rate(), "100.00");
+  results[0].bin = "10-12 m";
+  EXPECT_EQ(rate(), "33.33");
+}
+
+TEST(RunTables, KittiLcIsByBinAndOfItsOwnLimit) {
+  std::vector<PairResult> results = {
+      In(ResultOff("a", "1", 0.1, 1.0), "00", "0-10 m"),
+      In(ResultOff("a", "2", 0.1, 7.0), "02", "10-20 m"),
+      In(ResultOff("a", "3", 1.9, 4.9), "02", "20-30 m")};
+  const auto tables = MakeRunTables(results, {});
+  const RunTable* const lc = Find(tables, "kitti_lc");
+  ASSERT_NE(lc, nullptr);
+  EXPECT_THAT(
+      lc->table.rows.front(),
+      ElementsAre("a", "measured", "100.00", "0.00", "100.00", "66.67"));
+  EXPECT_THAT(lc->table.rows.back(),
+              ElementsAre("G3Reg", "quoted", "", "", "", "86.50"));
+  results.pop_back();
+  EXPECT_EQ(Find(MakeRunTables(results, {}), "kitti_lc"), nullptr);
+}
+
+TEST(RunTables, QuatroIsTheReferenceIfItIsThere) {
+  const auto reference_of = [](const std::vector<PairResult>& results) {
+    for (const RunTable& table : MakeRunTables(results, {})) {
+      if (table.name == "significance") return table.table.rows.at(0).at(0);
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(reference_of({ResultOff("a", "1", 0.1, 1.0),
+                          ResultOff("quatro", "1", 0.1, 1.0)}),
+            "quatro");
+  EXPECT_EQ(reference_of(Results()), "a");
+  EXPECT_EQ(reference_of({ResultOff("quatro", "1", 0.1, 1.0)}), "none");
 }
 
 TEST(RunTables, OfNothingAreNone) {
