@@ -18,6 +18,12 @@ namespace {
 // Of either kind; fewer are no scan.
 constexpr Eigen::Index kMinFeatures = 10;
 
+// A round that ends where it began; the next would do the same.
+bool IsStill(const Rigid3& move) {
+  return move.translation.norm() <= 1e-4 &&
+         AngleBetween(move.rotation, Eigen::Matrix3d::Identity()) <= 1e-5;
+}
+
 Points Sample(const Points& points, double voxel_size) {
   std::string error;
   // Can't fail: the features are within 10 km.
@@ -33,6 +39,9 @@ bool AloamOptions::IsValid(std::string* error) const {
     problem << "num_rounds = " << num_rounds
             << ", start_rounds = " << start_rounds
             << ", must be >= 1 and the second no less";
+  } else if (!(start_distance >= max_scan_distance)) {
+    problem << "start_distance = " << start_distance
+            << ", must be >= max_scan_distance = " << max_scan_distance;
   } else if (!(max_scan_distance > 0.0 && max_map_distance > 0.0)) {
     problem << "max_scan_distance = " << max_scan_distance
             << ", max_map_distance = " << max_map_distance << ", must be > 0";
@@ -87,20 +96,22 @@ TrackResult Aloam::Start(const PointCloud& scan) {
 }
 
 LinePlaneSummary Aloam::AlignToScan(const RingFeatures& features,
-                                    const Rigid3& world_from_scan,
-                                    int num_rounds) const {
+                                    const Rigid3& world_from_scan) const {
   LinePlaneSummary summary;
   Rigid3 last_from_scan = Inverse(world_from_last_) * world_from_scan;
+  const int num_rounds =
+      has_velocity_ ? options_.num_rounds : options_.start_rounds;
+  const double max_distance =
+      has_velocity_ ? options_.max_scan_distance : options_.start_distance;
   for (int round = 0; round < num_rounds; ++round) {
-    const SurfaceMatches matches = MatchToScan(features,
-                                               *last_,
-                                               last_from_scan,
-                                               options_.max_scan_distance,
-                                               options_.num_threads);
+    const SurfaceMatches matches = MatchToScan(
+        features, *last_, last_from_scan, max_distance, options_.num_threads);
     summary = AlignToLinesAndPlanes(
         matches.lines, matches.planes, last_from_scan, options_.alignment);
     if (!summary.target_from_source) return summary;
+    const Rigid3 move = *summary.target_from_source * Inverse(last_from_scan);
     last_from_scan = *summary.target_from_source;
+    if (IsStill(move)) break;
   }
   summary.target_from_source = world_from_last_ * last_from_scan;
   return summary;
@@ -140,9 +151,7 @@ TrackResult Aloam::Track(const PointCloud& scan,
   if (!features) return result;
 
   const LinePlaneSummary to_scan =
-      AlignToScan(*features,
-                  world_from_scan_guess,
-                  has_velocity_ ? options_.num_rounds : options_.start_rounds);
+      AlignToScan(*features, world_from_scan_guess);
   const LinePlaneSummary to_map =
       AlignToMap(Sample(features->less_sharp.points, options_.edge_voxel),
                  Sample(features->less_flat.points, options_.plane_voxel),

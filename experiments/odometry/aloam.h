@@ -6,14 +6,16 @@
 //   1. to the scan before it, from the guess of constant velocity,
 //   2. to the map of all before it, from 1,
 //
-// each time with matches found anew num_rounds times; start_rounds times where
-// there is no velocity yet, as the second scan may be metres ahead. The map
-// keeps one point a voxel of either kind around the sensor.
+// each time with matches found anew num_rounds times, or until nothing moves.
+// Where there is no velocity yet the second scan may be metres ahead: step 1
+// then has start_rounds, with matches start_distance away. The map keeps one
+// point a voxel of either kind around the sensor.
 //
 // Unlike A-LOAM, step 2 is done for every scan and its pose feeds the next
 // guess; the map is one grid around the sensor in place of cubes of 50 m;
 // hidden points are rejected (LOAM's rule, which A-LOAM leaves out); a pose
-// that the matches do not hold is refused. Scans are not corrected for motion.
+// that the matches do not hold is refused; A-LOAM starts with two rounds as
+// well. Scans are not corrected for motion.
 //
 // A scan whose rings can't be told is lost.
 //
@@ -38,7 +40,8 @@ struct AloamOptions {
   RingFeatureOptions features;
   LinePlaneOptions alignment;
   int num_rounds = 2;
-  int start_rounds = 20;
+  int start_rounds = 100;
+  double start_distance = 20.0;  // In place of max_scan_distance then [m].
 
   double max_scan_distance = 5.0;  // Of matches to the scan before [m].
   double max_map_distance = 1.0;   // And of the fifth neighbor in the map [m].
@@ -66,8 +69,7 @@ class Aloam : public Odometry {
   std::optional<RingFeatures> FindFeatures(const PointCloud& scan,
                                            std::string* message) const;
   LinePlaneSummary AlignToScan(const RingFeatures& features,
-                               const Rigid3& world_from_scan,
-                               int num_rounds) const;
+                               const Rigid3& world_from_scan) const;
   LinePlaneSummary AlignToMap(const Points& edges,
                               const Points& planes,
                               const Rigid3& world_from_scan) const;

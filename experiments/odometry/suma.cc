@@ -25,6 +25,11 @@ bool SumaOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!(min_range >= 0.0)) {
     problem << "min_range = " << min_range << ", must be >= 0";
+  } else if (start_rounds < 1) {
+    problem << "start_rounds = " << start_rounds << ", must be >= 1";
+  } else if (!(start_distance >= icp.max_distance)) {
+    problem << "start_distance = " << start_distance
+            << ", must be >= icp.max_distance = " << icp.max_distance;
   } else if (num_threads < 0) {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   }
@@ -54,17 +59,37 @@ TrackResult Suma::Start(const PointCloud& scan) {
   return {Rigid3{}, "the first scan"};
 }
 
+ProjectiveIcpSummary Suma::AlignToMap(const VertexMap& vertices,
+                                      const Rigid3& world_from_scan_guess,
+                                      double max_distance) const {
+  ProjectiveIcpOptions icp = options_.icp;
+  icp.max_distance = max_distance;
+  const RenderedMap model = map_.Render(image_, world_from_scan_guess);
+  return AlignProjectively(vertices, model.view, Rigid3{}, icp);
+}
+
 TrackResult Suma::Track(const PointCloud& scan,
                         const Rigid3& world_from_scan_guess) {
   const VertexMap vertices = MakeVertexMap(
       scan.points, image_, options_.min_range, options_.num_threads);
-  const RenderedMap model = map_.Render(image_, world_from_scan_guess);
-  const ProjectiveIcpSummary icp =
-      AlignProjectively(vertices, model.view, Rigid3{}, options_.icp);
-  if (!icp.model_from_scan) return {std::nullopt, icp.message};
-  const Rigid3 world_from_scan = world_from_scan_guess * *icp.model_from_scan;
+  const double end_distance = options_.icp.max_distance;
+  const int num_rounds = has_velocity_ ? 1 : options_.start_rounds;
+  Rigid3 world_from_scan = world_from_scan_guess;
+  std::string message;
+  for (int left = num_rounds - 1; left >= 0; --left) {
+    const double extra =
+        num_rounds > 1
+            ? (options_.start_distance - end_distance) * left / (num_rounds - 1)
+            : 0.0;
+    const ProjectiveIcpSummary icp =
+        AlignToMap(vertices, world_from_scan, end_distance + extra);
+    if (!icp.model_from_scan) return {std::nullopt, icp.message};
+    world_from_scan = Normalized(world_from_scan * *icp.model_from_scan);
+    message = icp.message;
+  }
   map_.Update(vertices, world_from_scan);
-  return {world_from_scan, icp.message};
+  has_velocity_ = true;
+  return {world_from_scan, message};
 }
 
 }  // namespace quatro

@@ -5,6 +5,11 @@
 // look like from the guess, by solvers/projective_icp.h; then the scan is taken
 // into the map.
 //
+// Where there is no velocity yet the second scan may be metres ahead of the
+// guess: partners are then sought start_distance away, and start_rounds times
+// the map is drawn anew from where the last round ended, the distance falling
+// evenly to that of icp.
+//
 // The image's rows span the elevations of the first scan: no beam need be
 // known.
 //
@@ -28,6 +33,8 @@ struct SumaOptions {
   int height = 64;
   double min_range = 3.0;  // Nearer points are the car's own [m].
   ProjectiveIcpOptions icp;
+  int start_rounds = 20;
+  double start_distance = 6.0;  // [m]
   SurfelMapOptions map;
 
   int num_threads = 1;  // 0: all cores. Never changes the answer.
@@ -46,7 +53,13 @@ class Suma : public Odometry {
   TrackResult Track(const PointCloud& scan,
                     const Rigid3& world_from_scan_guess) override;
 
+  // The pose in the frame of the guess.
+  ProjectiveIcpSummary AlignToMap(const VertexMap& vertices,
+                                  const Rigid3& world_from_scan_guess,
+                                  double max_distance) const;
+
   SumaOptions options_;
+  bool has_velocity_ = false;
   SphericalImage image_;
   SurfelMap map_;
 };
