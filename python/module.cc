@@ -27,6 +27,18 @@ namespace {
 
 namespace py = pybind11;
 
+// An attitude without a mode would be ignored, and a mode without one is told
+// nothing.
+void CheckIns(const py::dict& options, InsMode mode) {
+  for (const char* name : {"source_rpy", "target_rpy"}) {
+    if (options.contains(name) == (mode != InsMode::kNone)) continue;
+    throw py::value_error(std::string(name) +
+                          (mode == InsMode::kNone
+                               ? " is given, but ins_mode is none"
+                               : " is missing, ins_mode needs it"));
+  }
+}
+
 void Append(OptionList more, OptionList* list) {
   list->insert(list->end(), more.begin(), more.end());
 }
@@ -73,6 +85,7 @@ struct Given {
     Apply(options,
           Options(method, has_clouds),
           function + "(method=\"" + method.name + "\")");
+    CheckIns(options, registration.ins.mode);
     estimator.ShareCommon();
     registration.quatro = estimator.quatro;
     registration.seed = estimator.quatro.seed;
@@ -302,7 +315,7 @@ Options, all else by the preset:
 )";
 
 constexpr char kSolve[] =
-    R"(solve(source_points, target_points, method="quatro", preset="kitti", *, **options)
+    R"(solve(source_points, target_points, method="quatro", preset="kitti", **options)
 --
 
 Finds the pose between matched points, most of them wrong.
@@ -312,7 +325,8 @@ source_points, target_points: (N, 3) arrays [m], row i of one matched with row i
 method: how to solve, a key of quatro.methods().
 preset: as of register(), but for auto.
 
-Returns a Solution. Errors and threads are as of register().
+Returns a Solution. Raises ValueError and TypeError as register() does, and other
+threads run as there.
 
 Options, all else by the preset:
 )";
@@ -327,7 +341,8 @@ source, target: (N, 3) arrays of points [m] or Open3D point clouds, all finite.
 method: icp (point to point), gicp (plane to plane) or vgicp (plane to voxels').
 initial_target_from_source: (4, 4), or None for no motion.
 
-Returns an Alignment. Errors and threads are as of register().
+Returns an Alignment. Raises ValueError and TypeError as register() does, and other
+threads run as there.
 
 Options (epsilon and num_neighbors not of icp, voxel_size of vgicp alone):
 )";

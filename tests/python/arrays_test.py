@@ -60,8 +60,14 @@ def misaligned(points):
     return view
 
 
+def every_second_column(points):
+    wide = np.full((len(points), 6), np.nan)
+    wide[:, ::2] = points
+    return wide[:, ::2]
+
+
 @pytest.mark.parametrize('layout', [
-    padded, every_second, np.asfortranarray, misaligned,
+    padded, every_second, every_second_column, np.asfortranarray, misaligned,
     lambda points: points[::-1].copy()[::-1],  # Rows that go back in memory.
     lambda points: points.astype('>f8'),
     lambda points: points.astype(np.longdouble),

@@ -9,7 +9,7 @@ python=$1
 build=$2
 scratch=$3
 version=$4
-if [[ -z $python ]] || ! "$python" -c 'import numpy, pip, setuptools, wheel' 2>/dev/null; then
+if [[ -z $python ]] || ! "$python" -c 'import setuptools, pip, wheel, numpy' 2>/dev/null; then
   echo "skipped: no module was built, or pip, setuptools or wheel are missing"
   exit 77
 fi

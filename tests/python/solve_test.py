@@ -117,8 +117,13 @@ def test_matches_that_are_not_finite_are_refused(method, bad):
     ('quatro', {'up': (0, 0, 2)}, 'ins.up = (0 0 2), must be a unit vector'),
     ('quatro', {'attitude_std': 0}, 'ins.attitude_std = 0, must be in (0, pi]'),
     ('quatro', {'match_std': -1}, 'ins.match_std = -1, must be >= 0 and finite'),
-    ('quatro', {'source_rpy': (0, np.nan, 0)}, 'ins.source_attitude must be finite'),
-    ('quatro', {'target_rpy': (0, np.inf, 0)}, 'ins.target_attitude must be finite'),
+    ('quatro', {'ins_mode': 'fused', 'source_rpy': (0, np.nan, 0), 'target_rpy': (0, 0, 0)},
+     'ins.source_attitude must be finite'),
+    ('quatro', {'ins_mode': 'fused', 'source_rpy': (0, 0, 0), 'target_rpy': (0, np.inf, 0)},
+     'ins.target_attitude must be finite'),
+    ('quatro', {'source_rpy': (0, 0, 0)}, 'source_rpy is given, but ins_mode is none'),
+    ('arc_consensus', {'ins_mode': 'leveled', 'source_rpy': (0, 0, 0)},
+     'target_rpy is missing, ins_mode needs it'),
     ('quatro', {'ins_mode': 'full'},
      'ins_mode = "full", must be one of none, relative, leveled, fused'),
     ('quatro', {'seed': -1}, 'seed = -1, must be from 0 to 18446744073709551615'),
@@ -182,6 +187,8 @@ def test_numbers_of_numpy_are_numbers():
     ('quatro', {'pruning': 'none'}, lambda a: len(a.consistent) == 120),
     ('quatro', {'min_probability': 1.0}, lambda a: a.status == 'ambiguous'),
     ('quatro', {'certificate_tolerance': 1e-3}, lambda a: a.certificate['gap'] < 1e-3),
+    ('quatro', {}, lambda a: a.certificate['gnc_cost'] is not None),
+    ('quatro_exact', {}, lambda a: a.certificate['gnc_cost'] is None),
     ('quatro_exact', {'pruning': 'max_core'}, lambda a: 60 <= len(a.consistent) <= 120),
     ('teaser', {'estimate_scale': True}, lambda a: a.scale == pytest.approx(1, abs=0.01)),
     ('ransac', {'max_iterations': 1, 'sample': 'three_points'}, lambda a: not a.is_registered),
@@ -189,6 +196,22 @@ def test_numbers_of_numpy_are_numbers():
 def test_options_arrive(method, options, fact):
     source, target = problems.matches(1, TRUTH)
     assert fact(quatro.solve(source, target, method=method, **{'noise_bound': 0.1, **options}))
+
+
+@pytest.mark.parametrize('method, few', [
+    ('ransac', {'max_iterations': 1, 'local_optimization': False}),
+    ('arc_consensus', {'num_pairs': 8}),
+    ('teaser', {'tim_layout': 'random', 'gnc_max_num_iterations': 1}),
+    ('quatro', {'tim_layout': 'random', 'num_random_tims': 20, 'polish': False})])
+def test_seeds_draw_differently(method, few):
+    source, target = problems.matches(1, TRUTH)
+
+    def answers():
+        return [str(quatro.solve(source, target, method=method, seed=seed, **few)
+                    .target_from_source) for seed in range(12)]
+
+    assert answers() == answers()
+    assert len(set(answers())) > 1
 
 
 def test_scale():
@@ -233,10 +256,11 @@ def test_is_what_the_program_says_bit_for_bit(tmp_path):
     np.savetxt(matches, np.hstack([source, target]), fmt='%.17g', delimiter=',')
     for method in METHODS:
         name = 'ransac10k' if method == 'ransac' else method
-        run = subprocess.run([program, '--correspondences=%s' % matches, '--method=' + name],
-                             stdout=subprocess.PIPE, check=False)
+        run = subprocess.run([program, '--correspondences=%s' % matches, '--method=' + name,
+                              '--noise_bound=0.06', '--seed=5'],
+                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
         report = json.loads(run.stdout)
-        answer = quatro.solve(source, target, method=method)
+        answer = quatro.solve(source, target, method=method, noise_bound=0.06, seed=5)
         assert np.array_equal(answer.target_from_source, report['target_from_source'])
         assert answer.probability == report['probability']
         assert answer.reason == report['reason']
