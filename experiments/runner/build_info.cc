@@ -3,6 +3,7 @@
 
 #include "experiments/runner/build_info.h"
 
+#include <quatro/version.h>
 #include <unistd.h>
 
 #include <ctime>
