@@ -68,6 +68,9 @@ DEFINE_double(yaw_step_deg, 30.0, "Of yaw: from one turn to the next [deg]");
 DEFINE_int32(max_pairs,
              100,
              "Of each drive and each bin or interval; 0: all there are");
+DEFINE_int32(max_pairs_per_source,
+             1,
+             "Of loop and timing: pairs with one frame as the source; 0: all");
 DEFINE_int32(max_frames, 0, "Of odometry: of each drive; 0: all there are");
 DEFINE_uint64(seed, 1, "Of the choice of pairs and of the methods");
 DEFINE_string(shard, "1/1", "On scans: do part k of n alone, k/n");
@@ -207,6 +210,7 @@ std::optional<quatro::PairSelection> TasksOfFlags(std::string* error) {
   protocol.intervals = *intervals;
   protocol.yaw_step_deg = FLAGS_yaw_step_deg;
   protocol.max_pairs = FLAGS_max_pairs;
+  protocol.max_pairs_per_source = FLAGS_max_pairs_per_source;
   protocol.seed = FLAGS_seed;
   if (!protocol.IsValid(error)) return std::nullopt;
 

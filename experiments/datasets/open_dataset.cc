@@ -3,46 +3,19 @@
 
 #include "experiments/datasets/open_dataset.h"
 
-#include <filesystem>
-
+#include "experiments/datasets/any_sequence.h"
 #include "experiments/datasets/kitti_odometry.h"
 #include "experiments/datasets/kitti_pair_list.h"
-#include "experiments/datasets/kitti_raw.h"
-#include "experiments/datasets/naver.h"
 #include "experiments/datasets/pairs_csv.h"
 
 namespace quatro {
 namespace {
 
-namespace fs = std::filesystem;
-
-bool Exists(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
-bool IsNaver(const fs::path& folder) {
-  for (const char* part : {"", "mapping", "release/mapping"}) {
-    if (Exists(folder / part / "sensors" / "records_lidar.txt")) return true;
-  }
-  return false;
-}
-
 std::optional<SequenceData> OpenDrive(const DatasetOptions& options,
                                       const std::string& name,
                                       std::string* error) {
-  const fs::path folder = fs::path(options.folder) / name;
-  const bool is_raw = Exists(folder / "velodyne_points");
-  const bool is_naver = IsNaver(folder);
-  if ((is_raw || is_naver) && !options.poses.empty()) {
-    *error = folder.string() + ": true poses of a file are of KITTI odometry";
-    return std::nullopt;
-  }
-  if (is_raw) return ReadKittiRaw(folder.string(), error);
-  if (is_naver) {
-    NaverOptions naver;
-    naver.folder = folder.string();
-    return ReadNaver(naver, error);
+  if (options.poses.empty()) {
+    return ReadAnySequence({options.folder, name}, error);
   }
   KittiOdometryOptions kitti;
   kitti.folder = options.folder;

@@ -1,12 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The drives of a folder, or the pairs of a list, whatever their layout; which
-// one it is, the files tell:
-//
-//   velodyne_points/            KITTI raw       kitti_raw.h
-//   sensors/records_lidar.txt   NAVER LABS      naver.h
-//   else                        KITTI odometry  kitti_odometry.h
-//   a list that ends in .csv    pairs_csv.h, any other kitti_pair_list.h
+// The drives of a folder (any_sequence.h), or the pairs of a list: one that
+// ends in .csv is of pairs_csv.h, any other of kitti_pair_list.h.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
 #define QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
@@ -24,7 +19,8 @@ struct DatasetOptions {
   std::string folder;                  // Of one drive, or of several.
   std::vector<std::string> sequences;  // Their names; empty: all there are.
 
-  // File of true poses of the one drive; empty: the data set's own.
+  // File of true poses of the one drive, of KITTI odometry; empty: the data
+  // set's own.
   std::string poses;
 };
 

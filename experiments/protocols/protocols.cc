@@ -23,6 +23,7 @@ std::optional<PairSelection> SelectPairsOf(const SequenceData& drive,
     loops.loop.min_path = options.min_path;
     loops.bins = options.bins;
     loops.max_pairs_per_bin = options.max_pairs;
+    loops.max_pairs_per_source = options.max_pairs_per_source;
     loops.seed = options.seed;
     return SelectLoopPairs(drive, loops, error);
   }
@@ -58,6 +59,9 @@ bool ProtocolOptions::IsValid(std::string* error) const {
     *error = "there is no interval";
   } else if (max_pairs < 0) {
     *error = "max_pairs = " + std::to_string(max_pairs) + ", must be >= 0";
+  } else if (max_pairs_per_source < 0) {
+    *error = "max_pairs_per_source = " + std::to_string(max_pairs_per_source) +
+             ", must be >= 0";
   } else if (!(yaw_step_deg > 0.0 && yaw_step_deg <= 180.0)) {
     *error = "yaw_step_deg = " + std::to_string(yaw_step_deg) +
              ", must be in (0, 180]";

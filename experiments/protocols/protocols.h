@@ -35,6 +35,7 @@ struct ProtocolOptions {
 
   // Of each drive, and of each bin or interval; 0: all there are.
   int max_pairs = 100;
+  int max_pairs_per_source = 1;  // Of loop and timing; 0: all there are.
   uint64_t seed = 1;
 
   // Returns false and says why in *error if a value is out of range.

@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Puts the tables of experiments/reproduce.sh on one page of Markdown.
+
+    report_paper.py FOLDER > report.md
+
+Before the tables it holds the paper's order of methods against them: what the
+paper found, what this run did, and whether they agree. Runs that are missing are
+told as such.
+Exit code: 0; 2 if FOLDER has none of the runs, with one line that says so.
+"""
+import csv
+import json
+import os
+import sys
+
+RUNS = ("table_one", "table_two", "table_three", "yaw", "timing")
+TITLES = {
+    "table_one": "Success of loop pairs, 9-12 m [%] (Table I)",
+    "table_two": "Drift of odometry on 00 (Table II)",
+    "table_three": "Errors by distance on 06 (Table III)",
+    "yaw": "Errors against an added yaw",
+    "timing": "Median times [ms]",
+}
+TABLES = {"table_one": "tables/table_one.csv", "table_two": "table_two.csv",
+          "table_three": "tables/table_three.csv", "yaw": "tables/by_bin.csv",
+          "timing": "tables/timing.csv"}
+FIGURES = {"table_one": ("success", "recall"), "table_three": ("distance",), "yaw": ("yaw",),
+           "timing": ("timing",)}
+
+
+class BadInput(Exception):
+    pass
+
+
+def read_csv(path):
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except OSError as failure:
+        raise BadInput(f"{path}: {failure.strerror}") from failure
+    if not rows:
+        raise BadInput(f"{path}: is empty")
+    return rows[0], [dict(zip(rows[0], row)) for row in rows[1:]]
+
+
+def number(row, column):
+    try:
+        return float(row[column])
+    except (KeyError, ValueError):
+        return None
+
+
+def measured(rows):
+    return [row for row in rows if row.get("origin", "measured") == "measured"]
+
+
+def row_of(rows, method, **where):
+    for row in measured(rows):
+        if row["method"] == method and all(row.get(key) == value for key, value in where.items()):
+            return row
+    return {}
+
+
+def markdown(columns, rows):
+    kept = [column for column in columns
+            if not column.endswith((" low", " high")) and "all answers" not in column
+            and any(row[column] for row in rows)]
+    lines = ["| " + " | ".join(kept) + " |", "|" + "---|" * len(kept)]
+    for row in rows:
+        cells = [row[column] or "-" for column in kept]
+        if row.get("origin") == "quoted":
+            cells[0] += " (quoted)"
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def finding(claim, figures, holds):
+    told = "no figures in this run" if holds is None else ("holds" if holds else "does not hold")
+    return f"| {claim} | {figures} | {told} |"
+
+
+def show(value, digits=2):
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def success_findings(columns, rows):
+    sets = [column for column in columns
+            if column not in ("method", "origin", "all") and not column.endswith((" low", " high"))]
+    for name in sets + ["all"]:
+        quatro, teaser, fgr, ransac = (number(row_of(rows, method), name)
+                                       for method in ("quatro", "teaser", "fgr", "ransac10k"))
+        if quatro is None:
+            continue
+        yield finding(f"{name}: Quatro at 99 % or more", show(quatro), quatro >= 99.0)
+        if teaser is not None:
+            yield finding(f"{name}: Quatro above TEASER++", f"{show(quatro)} and {show(teaser)}",
+                          quatro > teaser)
+        if fgr is not None and ransac is not None:
+            yield finding(f"{name}: FGR and RANSAC10K far below Quatro (by 20 points or more)",
+                          f"{show(fgr)} and {show(ransac)}", max(fgr, ransac) <= quatro - 20.0)
+
+
+def ins_findings(columns, rows):
+    for column in columns:
+        if "r_avg" not in column or column.endswith((" low", " high")):
+            continue
+        plain = number(row_of(rows, "quatro"), column)
+        with_ins = number(row_of(rows, "quatro_ins"), column)
+        if plain is not None and with_ins is not None:
+            yield finding(f"{column}: Quatro with INS turns less wrong than without",
+                          f"{show(with_ins, 3)} and {show(plain, 3)}", with_ins < plain)
+
+
+def drift_findings(rows):
+    row = row_of(rows, "quatro_c2f")
+    one, five = (number(row, f"t_rel % at {interval}") for interval in (1, 5))
+    if one is None or five is None:
+        return
+    yield finding("Quatro-c2f nearly constant from interval 1 to 5 (t_rel within a factor of 1.5)",
+                  f"{show(one)} and {show(five)} %", max(one, five) <= 1.5 * min(one, five))
+
+
+def write_run(name, folder, out):
+    columns, rows = read_csv(os.path.join(folder, TABLES[name]))
+    print(f"\n## {TITLES[name]}\n", file=out)
+    manifest = os.path.join(folder, "manifest.json")
+    if os.path.exists(manifest):
+        with open(manifest, encoding="utf-8") as file:
+            made = json.load(file)
+        print(f"`{name}/manifest.json`: version {made['version']}, commit {made['commit']}, "
+              f"{made['start_time']}.\n", file=out)
+    print(markdown(columns, rows), file=out)
+    for figure in FIGURES.get(name, ()):
+        path = f"figures/{figure}.png"
+        if os.path.exists(os.path.join(folder, path)):
+            print(f"\n![{figure}]({name}/{path})", file=out)
+
+
+def main(arguments, out):
+    if len(arguments) != 1:
+        raise BadInput("give the folder of reproduce.sh, and it alone")
+    root = arguments[0]
+    present = [name for name in RUNS if os.path.exists(os.path.join(root, name, TABLES[name]))]
+    if not present:
+        raise BadInput(f"{root}: holds none of the runs {', '.join(RUNS)}")
+    findings = []
+    if "table_one" in present:
+        findings += success_findings(*read_csv(os.path.join(root, "table_one", TABLES["table_one"])))
+    if "table_three" in present:
+        findings += ins_findings(
+            *read_csv(os.path.join(root, "table_three", TABLES["table_three"])))
+    if "table_two" in present:
+        findings += drift_findings(
+            read_csv(os.path.join(root, "table_two", TABLES["table_two"]))[1])
+    print("# The paper's tables, run again\n\n| the paper | here | |\n|---|---|---|", file=out)
+    for line in findings:
+        print(line, file=out)
+    for name in RUNS:
+        if name in present:
+            write_run(name, os.path.join(root, name), out)
+        else:
+            print(f"\n## {TITLES[name]}\n\nNot run.", file=out)
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:], sys.stdout)
+    except BadInput as failure:
+        print(f"report_paper.py: {failure}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,146 @@
+#!/usr/bin/env bash
+# Runs every table and figure of the paper; from a clean clone on, it installs
+# and builds what it needs.
+#   experiments/reproduce.sh [--quick] [--output=DIR] [--kitti=DIR] [--naver=DIR]
+#                            [--preset=NAME] [--threads=N]
+#
+#   --quick      few pairs and short drives: less than ten minutes on two cores
+#   --output     build/reproduce by default; the same command goes on with it
+#   --kitti      KITTI odometry, with SemanticKITTI's poses.txt if one has them;
+#                without, simulated drives of the same names
+#   --naver      NAVER LABS' HD_B1; without, a simulated building
+#
+# DIR gets data/ (what was simulated), a folder for each run of
+# quatro_experiment with its tables and figures, and report.md.
+# Exit code: 0; 2 a wrong flag or bad data; 3 no set-up, or stopped.
+set -euo pipefail
+
+quick=
+output=
+kitti=
+naver=
+preset=kitti
+threads=0
+for flag in "$@"; do
+  case $flag in
+    --quick) quick=1 ;;
+    --output=*) output=$(realpath -m -- "${flag#*=}") ;;
+    --kitti=*) kitti=$(realpath -- "${flag#*=}") ;;
+    --naver=*) naver=$(realpath -- "${flag#*=}") ;;
+    --preset=*) preset=${flag#*=} ;;
+    --threads=*) threads=${flag#*=} ;;
+    *)
+      echo "usage: $0 [--quick] [--output=DIR] [--kitti=DIR] [--naver=DIR]" \
+           "[--preset=NAME] [--threads=N]" >&2
+      exit 2
+      ;;
+  esac
+done
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=third_party/setup.sh
+source third_party/setup.sh
+output=${output:-$PWD/build/reproduce}
+mkdir -p build "$output"
+log=build/setup.log
+: >"$log"
+
+#   step <what> <command>...: one line here, the rest in the log
+step() {
+  echo "$1" >&2
+  shift
+  if ! "$@" >>"$log" 2>&1 </dev/null; then
+    tail -n 30 "$log" >&2
+    echo "reproduce.sh: failed; the whole log is $PWD/$log" >&2
+    exit 3
+  fi
+}
+step "installing" quatro_install
+step "configuring" quatro_configure release build
+step "building (a few minutes the first time)" \
+     quatro_build build quatro_simulate quatro_experiment
+
+drives=(00 02 05 06 07 08)
+if [[ $quick ]]; then
+  # Scans are 4 m apart, but for odometry.
+  spacing=4 gap=25 per_source=0 pairs_one=8 pairs_three=6 pairs_yaw=2 pairs_timing=4 frames=106
+  intervals=(1 5)
+  odometries=quatro,quatro_c2f,gicp,suma,aloam
+else
+  spacing=1 gap=100 per_source=3 pairs_one=200 pairs_three=200 pairs_yaw=50 pairs_timing=50 frames=600
+  intervals=(1 3 5)
+  odometries=icp,gicp,vgicp,fgr,teaser,quatro,suma,aloam,quatro_c2f
+fi
+
+#   simulate <folder> <drive> <spacing> <frames>
+simulate() {
+  [[ -e $1/poses.txt ]] && return
+  echo "simulating $2" >&2
+  build/bin/quatro_simulate --output="$1" --protocol=drive --drive="$2" \
+      --frame_spacing="$3" --num_frames="$4" --threads="$threads"
+}
+
+#   run <name> <flags of quatro_experiment>...
+run() {
+  local name=$1
+  shift
+  echo "running $name" >&2
+  mkdir -p "$output/$name"
+  rmdir --ignore-fail-on-non-empty "$output/$name"
+  build/bin/quatro_experiment --output="$output/$name" --threads="$threads" "$@" \
+      >"$output/$name.txt"
+}
+
+#   draw <name> <figures>
+draw() {
+  experiments/with_python.sh matplotlib experiments/draw_experiment.py \
+      "$output/$1" --figures="$2" >/dev/null
+}
+
+drive_data=$kitti
+odometry_data=$kitti
+if [[ -z $kitti ]]; then
+  drive_data=$output/data/drives
+  odometry_data=$drive_data
+  for drive in "${drives[@]}"; do
+    simulate "$drive_data/$drive" "$drive" "$spacing" 0
+  done
+  if [[ $quick ]]; then
+    odometry_data=$output/data/odometry
+    simulate "$odometry_data/00" 00 1 "$frames"
+  fi
+fi
+building_data=$naver
+if [[ -z $naver ]]; then
+  building_data=$output/data/building/hd_b1
+  simulate "$building_data" hd_b1 1 0
+fi
+
+loops=(--protocol=loop --data="$drive_data" --preset="$preset" --min_frame_gap="$gap"
+       --max_pairs_per_source="$per_source")
+run table_one "${loops[@]}" --sequences=00,02,05,06,07,08 --bins=9-12 --max_pairs="$pairs_one" \
+    --methods=quatro,quatro_ins,quatro_c2f,teaser,fgr,ransac1k,ransac10k
+draw table_one success,recall
+run table_three "${loops[@]}" --sequences=06 --bins=0-2,2-4,4-6,6-8,8-10 --max_pairs="$pairs_three" \
+    --methods=ransac10k,fgr,teaser,quatro,quatro_ins
+draw table_three distance
+run table_two --protocol=odometry --data="$odometry_data" --sequences=00 --preset="$preset" \
+    --intervals="$(IFS=,; echo "${intervals[*]}")" --max_frames="$frames" --methods="$odometries"
+run yaw --protocol=yaw --data="$building_data" --preset=indoor --intervals=5 --yaw_step_deg=30 \
+    --max_pairs="$pairs_yaw" --methods=quatro,teaser,fgr,ransac10k
+draw yaw yaw
+run timing --protocol=timing --data="$drive_data" --sequences=00 --preset="$preset" \
+    --min_frame_gap="$gap" --max_pairs_per_source="$per_source" --bins=0-10 --max_pairs="$pairs_timing" \
+    --methods=quatro,quatro_exact,teaser,fgr,ransac10k
+draw timing timing
+run tilt --protocol=tilt --data="$drive_data" --sequences=00,02,05,06,07,08 --min_frame_gap="$gap" \
+    --bins=0-12
+for protocol in tims degeneracy quasi_inliers; do
+  echo "running $protocol" >&2
+  build/bin/quatro_experiment --protocol="$protocol" --output="$output/$protocol.csv" \
+      >"$output/$protocol.txt"
+done
+
+python3 experiments/report_paper.py "$output" >"$output/report.md.part"
+mv "$output/report.md.part" "$output/report.md"
+echo "$output/report.md" >&2
