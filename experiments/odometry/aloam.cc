@@ -39,9 +39,6 @@ bool AloamOptions::IsValid(std::string* error) const {
     problem << "num_rounds = " << num_rounds
             << ", start_rounds = " << start_rounds
             << ", must be >= 1 and the second no less";
-  } else if (!(start_distance >= max_scan_distance)) {
-    problem << "start_distance = " << start_distance
-            << ", must be >= max_scan_distance = " << max_scan_distance;
   } else if (!(max_scan_distance > 0.0 && max_map_distance > 0.0)) {
     problem << "max_scan_distance = " << max_scan_distance
             << ", max_map_distance = " << max_map_distance << ", must be > 0";
@@ -101,11 +98,12 @@ LinePlaneSummary Aloam::AlignToScan(const RingFeatures& features,
   Rigid3 last_from_scan = Inverse(world_from_last_) * world_from_scan;
   const int num_rounds =
       has_velocity_ ? options_.num_rounds : options_.start_rounds;
-  const double max_distance =
-      has_velocity_ ? options_.max_scan_distance : options_.start_distance;
   for (int round = 0; round < num_rounds; ++round) {
-    const SurfaceMatches matches = MatchToScan(
-        features, *last_, last_from_scan, max_distance, options_.num_threads);
+    const SurfaceMatches matches = MatchToScan(features,
+                                               *last_,
+                                               last_from_scan,
+                                               options_.max_scan_distance,
+                                               options_.num_threads);
     summary = AlignToLinesAndPlanes(
         matches.lines, matches.planes, last_from_scan, options_.alignment);
     if (!summary.target_from_source) return summary;

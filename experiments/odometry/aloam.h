@@ -8,8 +8,8 @@
 //
 // each time with matches found anew num_rounds times, or until nothing moves.
 // Where there is no velocity yet the second scan may be metres ahead: step 1
-// then has start_rounds, with matches start_distance away. The map keeps one
-// point a voxel of either kind around the sensor.
+// then has start_rounds. The map keeps one point a voxel of either kind around
+// the sensor.
 //
 // Unlike A-LOAM, step 2 is done for every scan and its pose feeds the next
 // guess; the map is one grid around the sensor in place of cubes of 50 m;
@@ -41,7 +41,6 @@ struct AloamOptions {
   LinePlaneOptions alignment;
   int num_rounds = 2;
   int start_rounds = 100;
-  double start_distance = 20.0;  // In place of max_scan_distance then [m].
 
   double max_scan_distance = 5.0;  // Of matches to the scan before [m].
   double max_map_distance = 1.0;   // And of the fifth neighbor in the map [m].

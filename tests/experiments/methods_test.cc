@@ -189,6 +189,13 @@ TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
   EXPECT_FALSE(FindCloudSolver("nothing"));
 }
 
+// Quatro on matches of a peer's descriptors.
+bool IsFrontEnd(const std::string& name) { return name.ends_with("_fpfh"); }
+
+bool IsGlobal(const std::string& name) {
+  return name == "quatro_c2f" || IsFrontEnd(name);
+}
+
 TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
   PointCloud source;
   PointCloud target;
@@ -199,17 +206,20 @@ TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
   for (const std::string& name : CloudMethodNames()) {
     const RegistrationSummary summary =
         FindCloudSolver(name)(source, target, Rigid3(), options);
-    ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
-    EXPECT_TRUE(summary.refinement->is_accepted) << name;
-    const bool is_global = name == "quatro_c2f";
-    // That of a peer: open3d_icp.
-    EXPECT_EQ(RefinementName(summary.refinement->method),
-              is_global ? "gicp" : name.substr(name.find('_') + 1));
-    EXPECT_EQ(summary.verdict.IsRegistered(), is_global) << name;
+    EXPECT_EQ(summary.refinement.has_value(), !IsFrontEnd(name))
+        << name << summary.error;
+    if (summary.refinement) {
+      EXPECT_TRUE(summary.refinement->is_accepted) << name;
+      // That of a peer: open3d_icp.
+      EXPECT_EQ(RefinementName(summary.refinement->method),
+                IsGlobal(name) ? "gicp" : name.substr(name.find('_') + 1));
+    }
+    EXPECT_EQ(summary.verdict.IsRegistered(), IsGlobal(name)) << name;
+    ASSERT_TRUE(summary.target_from_source()) << name;
     EXPECT_LE((summary.target_from_source()->translation -
                Eigen::Vector3d(0.2, -0.1, 0.0))
                   .norm(),
-              0.1)
+              IsFrontEnd(name) ? 0.3 : 0.1)
         << name;
   }
 }
@@ -219,7 +229,7 @@ TEST(Methods, LocalOnesStartFromTheGuess) {
   cloud.points = RandomStreet(3000, 0.01, 1);
   const Rigid3 guess{RotationZ(0.02), {0.2, 0.1, 0.0}};
   for (const std::string& name : CloudMethodNames()) {
-    if (name == "quatro_c2f") continue;
+    if (IsGlobal(name)) continue;
     const RegistrationSummary summary =
         FindCloudSolver(name)(cloud, cloud, guess, {});
     ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
