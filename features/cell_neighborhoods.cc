@@ -13,6 +13,7 @@
 
 #include "features/lanes.h"
 #include "features/parallel.h"
+#include "features/radix_sort.h"
 
 namespace quatro {
 namespace {
@@ -21,7 +22,6 @@ namespace {
 // than the radius by one part in a million.
 constexpr double kMaxCells = 1 << 20;
 constexpr double kWider = 1.0 + 1e-6;
-constexpr int kBitsPerAxis = 21;  // One more, for the neighbours of the last.
 
 struct Cell {
   std::uint64_t key;
@@ -31,6 +31,7 @@ struct Cell {
 struct Cells {
   std::vector<std::int32_t> order;  // Points, cell by cell.
   std::vector<Cell> cells;          // In ascending order of keys.
+  int y_shift = 0, x_shift = 0;     // Of these axes in a key, above z.
 
   // The points in those of three cells, one after the other along z, that are
   // not empty.
@@ -51,25 +52,32 @@ std::optional<Cells> MakeCells(const Points& points, double radius) {
   const Eigen::Index n = points.cols();
   if (n == 0) return result;
   const Eigen::Vector3d low = points.rowwise().minCoeff();
-  const double extent = (points.rowwise().maxCoeff() - low).maxCoeff();
+  const Eigen::Vector3d extents = points.rowwise().maxCoeff() - low;
+  const double extent = extents.maxCoeff();
   const double width = radius * kWider;
   // An extent that overflows, or none of any radius, has no cells.
   if (!(extent < kMaxCells * width && std::isfinite(extent))) {
     return std::nullopt;
   }
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keyed(
-      static_cast<std::size_t>(n));
+  // Cells from 1, so that there is one below, and one above the last.
+  int bits[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    bits[axis] = static_cast<int>(std::bit_width(
+        static_cast<std::uint64_t>(extents[axis] / width + 2.0)));
+  }
+  result.y_shift = bits[2];
+  result.x_shift = bits[2] + bits[1];
+  std::vector<KeyedIndex> keyed(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      // From 1, so that there is one below.
       const auto cell = static_cast<std::uint64_t>(
           (points(axis, i) - low[axis]) / width + 1.0);
-      key = key << kBitsPerAxis | cell;
+      key = key << bits[axis] | cell;
     }
     keyed[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
   }
-  std::sort(keyed.begin(), keyed.end());
+  RadixSort(bits[0] + bits[1] + bits[2], &keyed);
   result.order.reserve(keyed.size());
   for (const auto& [key, i] : keyed) {
     if (result.cells.empty() || result.cells.back().key != key) {
@@ -244,11 +252,11 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
       near.clear();
       for (const std::uint64_t x : {0, 1, 2}) {
         for (const std::uint64_t y : {0, 1, 2}) {
-          const std::uint64_t corner = (std::uint64_t{1} << 2 * kBitsPerAxis) +
-                                       (std::uint64_t{1} << kBitsPerAxis) + 1;
-          const auto [first, last] = cells->PointsInColumn(
-              cell.key - corner + (x << 2 * kBitsPerAxis) +
-              (y << kBitsPerAxis));
+          const std::uint64_t corner = (std::uint64_t{1} << cells->x_shift) +
+                                       (std::uint64_t{1} << cells->y_shift) + 1;
+          const auto [first, last] =
+              cells->PointsInColumn(cell.key - corner + (x << cells->x_shift) +
+                                    (y << cells->y_shift));
           near.insert(near.end(),
                       cells->order.data() + first,
                       cells->order.data() + last);

@@ -84,6 +84,15 @@ std::vector<Neighbor> KdTree::WithinRadius(const Eigen::Vector3d& query,
 std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
                                       int k) const {
   if (k < 1) return {};
+  if (k == 1) {
+    std::uint32_t index = 0;
+    double squared_distance = 0.0;
+    if (index_->tree.knnSearch(query.data(), 1, &index, &squared_distance) ==
+        0) {
+      return {};
+    }
+    return {{index, squared_distance}};
+  }
   std::vector<std::uint32_t> indices(static_cast<std::size_t>(k));
   std::vector<double> d2(static_cast<std::size_t>(k));
   const std::size_t num_found = index_->tree.knnSearch(

@@ -3,12 +3,13 @@
 
 #include "features/voxel_grid.h"
 
-#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
-#include <utility>
 #include <vector>
+
+#include "features/radix_sort.h"
 
 namespace quatro {
 namespace {
@@ -53,30 +54,34 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
     return std::nullopt;
   }
 
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keyed(
-      static_cast<std::size_t>(points.cols()));
+  int bits[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    bits[axis] = static_cast<int>(std::bit_width(
+        static_cast<std::uint64_t>(last_cell[axis] - first_cell[axis])));
+  }
+  std::vector<KeyedIndex> keyed(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double cell =
           std::floor(points(axis, i) / voxel_size) - first_cell[axis];
-      key = key << kBitsPerAxis | static_cast<std::uint64_t>(cell);
+      key = key << bits[axis] | static_cast<std::uint64_t>(cell);
     }
     keyed[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
   }
-  std::sort(keyed.begin(), keyed.end());
+  RadixSort(bits[0] + bits[1] + bits[2], &keyed);
 
   Points samples(3, points.cols());
   Eigen::Index num_samples = 0;
   for (auto begin = keyed.begin(); begin != keyed.end();) {
     // Offsets from the cell's corner, in cells, are in [0, 1).
     const Eigen::Vector3d corner =
-        (points.col(begin->second) / voxel_size).array().floor();
+        (points.col(begin->index) / voxel_size).array().floor();
     Fixed3 sum = Fixed3::Zero();
     auto end = begin;
-    for (; end != keyed.end() && end->first == begin->first; ++end) {
+    for (; end != keyed.end() && end->key == begin->key; ++end) {
       const Eigen::Vector3d offset =
-          points.col(end->second) / voxel_size - corner;
+          points.col(end->index) / voxel_size - corner;
       sum += (offset * kFixedPoint).cast<std::int64_t>();
     }
     const double scale = 1.0 / (kFixedPoint * static_cast<double>(end - begin));
