@@ -15,7 +15,7 @@
 
 #include "experiments/runner/run_folder.h"
 #include "features/cloud_io.h"
-#include "tests/support/matched_problems.h"
+#include "tests/support/room_scans.h"
 #include "tests/support/run_program.h"
 
 namespace quatro {
@@ -171,25 +171,15 @@ TEST(ShardTest, TextIsKOfN) {
   }
 }
 
-// Small scans of a box-shaped room with pillars, seen from two places.
 class RunTasksTest : public RunFolderTest {
  protected:
   void SetUp() override {
     RunFolderTest::SetUp();
-    Random random(7);
-    Points room = RandomPointsInBox(3000, {12.0, 8.0, 3.0}, &random);
-    for (Eigen::Index i = 0; i < room.cols(); ++i) {
-      if (i % 3 == 0) room(2, i) = -3.0;
-      if (i % 3 == 1) room(0, i) = room(0, i) < 0.0 ? -12.0 : 12.0;
-      if (i % 3 == 2) room(1, i) = room(1, i) < 0.0 ? -8.0 : 8.0;
-    }
-    const Rigid3 truth{RotationZ(0.4), {0.8, -0.5, 0.1}};
-    PointCloud source;
-    source.points = Inverse(truth).Apply(room);
-    PointCloud target;
-    target.points = room;
-    ASSERT_TRUE(WriteCloud(source, PathOf("source.bin"), &error_)) << error_;
-    ASSERT_TRUE(WriteCloud(target, PathOf("target.bin"), &error_)) << error_;
+    const Rigid3 truth = TrueRoomPose();
+    ASSERT_TRUE(WriteCloud(RoomSource(), PathOf("source.bin"), &error_))
+        << error_;
+    ASSERT_TRUE(WriteCloud(RoomTarget(), PathOf("target.bin"), &error_))
+        << error_;
     for (int i = 0; i < 4; ++i) {
       PairTask task;
       task.name = "pair " + std::to_string(i);
@@ -203,9 +193,7 @@ class RunTasksTest : public RunFolderTest {
       tasks_.push_back(task);
     }
     methods_.names = kTwoMethods;
-    methods_.options.front_end.voxel_size = 0.5;
-    methods_.options.front_end.normal_radius = 1.5;
-    methods_.options.front_end.fpfh_radius = 2.5;
+    methods_.options = RoomOptions();
   }
 
   RunEnd Run(const RunControl& control) {
