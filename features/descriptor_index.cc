@@ -220,11 +220,12 @@ class Search {
     ToTile(tile.bins, descriptor_, sum);
     for (int piece = 0; piece < kNumPieces; ++piece) {
       const Int index = Piece<kBytes>(tile.index, piece);
-      const Int is_nearer =
-          (sum[piece] < best_[piece]) |
-          ((sum[piece] == best_[piece]) & (index < best_index_[piece]));
-      best_[piece] = is_nearer ? sum[piece] : best_[piece];
-      best_index_[piece] = is_nearer ? index : best_index_[piece];
+      // Each choice by one comparison: GCC makes others one lane at a time.
+      const Int lower = index < best_index_[piece] ? index : best_index_[piece];
+      const Int of_equals =
+          sum[piece] == best_[piece] ? lower : best_index_[piece];
+      best_index_[piece] = sum[piece] < best_[piece] ? index : of_equals;
+      best_[piece] = sum[piece] < best_[piece] ? sum[piece] : best_[piece];
     }
   }
 
