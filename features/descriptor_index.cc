@@ -74,44 +74,48 @@ std::vector<Boxes> EmptyBoxes(std::size_t num) {
 template <int kBytes>
 class Search {
  public:
-  QUATRO_SIMD_INLINE Search(const DescriptorIndex::Parts& parts,
-                            const float* descriptor,
-                            const float* coordinates,
-                            const NearestDescriptor& start,
-                            bool any)
-      : parts_(parts),
-        descriptor_(descriptor),
-        coordinates_(coordinates),
-        start_(start),
-        any_(any) {
+  // Looks into the nearest box.
+  QUATRO_SIMD_INLINE void Start(const DescriptorIndex::Parts& parts,
+                                const DescriptorQuery& query,
+                                bool any) {
+    descriptor_ = query.descriptor;
+    coordinates_ = query.coordinates;
+    start_ = query.best;
+    any_ = any;
     for (int piece = 0; piece < kNumPieces; ++piece) {
-      best_[piece] = Float{} + start.squared_distance;
-      best_index_[piece] = Int{} + start.index;
+      best_[piece] = Float{} + start_.squared_distance;
+      best_index_[piece] = Int{} + start_.index;
     }
-    SetLeast(start.squared_distance);
-  }
+    SetLeast(parts, start_.squared_distance);
 
-  QUATRO_SIMD_INLINE void Run() {
     // The nearest box first, so that most others need not be looked into.
-    std::size_t nearest_box = 0;
+    nearest_box_ = 0;
     float nearest = kInfinity;
     Float sum[kNumPieces];
-    for (std::size_t k = 0; k < parts_.large_boxes.size(); ++k) {
-      ToBoxes(parts_.large_boxes[k], sum);
+    for (std::size_t k = 0; k < parts.large_boxes.size(); ++k) {
+      ToBoxes(parts.large_boxes[k], sum);
       const float least = LeastOf(sum);
       if (!(least < nearest)) continue;
       nearest = least;
-      nearest_box = k * kLanes + FirstOf(BitsNotAbove<kBytes>(sum, least));
+      nearest_box_ = k * kLanes + FirstOf(BitsNotAbove<kBytes>(sum, least));
     }
-    if (nearest == kInfinity || LookInto(nearest_box)) return;
-    for (std::size_t k = 0; k < parts_.large_boxes.size(); ++k) {
-      ToBoxes(parts_.large_boxes[k], sum);
-      for (std::uint32_t bits = BitsNotAbove<kBytes>(sum, limit_); bits != 0;
-           bits &= bits - 1) {
-        const std::size_t box = k * kLanes + FirstOf(bits);
-        if (box != nearest_box && LookInto(box)) return;
-      }
-    }
+    is_done_ = nearest == kInfinity || LookInto(parts, nearest_box_);
+  }
+
+  // Which of 16 boxes may still hold a nearer one.
+  QUATRO_SIMD_INLINE std::uint32_t Choose(const DescriptorIndex::Parts& parts,
+                                          std::size_t k) const {
+    if (is_done_) return 0;
+    Float sum[kNumPieces];
+    ToBoxes(parts.large_boxes[k], sum);
+    std::uint32_t bits = BitsNotAbove<kBytes>(sum, limit_);
+    if (nearest_box_ / kLanes == k) bits &= ~(1u << nearest_box_ % kLanes);
+    return bits;
+  }
+
+  QUATRO_SIMD_INLINE void GoOn(const DescriptorIndex::Parts& parts,
+                               std::size_t box) {
+    if (!is_done_) is_done_ = LookInto(parts, box);
   }
 
   QUATRO_SIMD_INLINE NearestDescriptor Result() const {
@@ -145,10 +149,11 @@ class Search {
     return std::bit_cast<float>(MinOf<kBytes>(least));
   }
 
-  QUATRO_SIMD_INLINE void SetLeast(float squared_distance) {
+  QUATRO_SIMD_INLINE void SetLeast(const DescriptorIndex::Parts& parts,
+                                   float squared_distance) {
     least_ = squared_distance;
     const float distance =
-        std::sqrt(least_) * (1.0f + 1e-5f) + parts_.margin;  // Equation (3).
+        std::sqrt(least_) * (1.0f + 1e-5f) + parts.margin;  // Equation (3).
     // Squares may be rounded down to 0, and padding is at infinity.
     limit_ = std::min(distance * distance + 1e-35f,
                       std::numeric_limits<float>::max());
@@ -179,6 +184,8 @@ class Search {
                                         Float (&sum)[kNumPieces]) {
     for (int piece = 0; piece < kNumPieces; ++piece) {
       sum[piece] = Float{};
+      // So that several tiles are under way at once.
+#pragma GCC unroll 33
       for (int d = 0; d < kSize; ++d) {
         const Float difference = Piece<kBytes>(rows[d], piece) - query[d];
         sum[piece] += difference * difference;
@@ -187,14 +194,15 @@ class Search {
   }
 
   // Sixteen tiles. True if what is found is enough.
-  QUATRO_SIMD_INLINE bool LookInto(std::size_t box) {
+  QUATRO_SIMD_INLINE bool LookInto(const DescriptorIndex::Parts& parts,
+                                   std::size_t box) {
     Float sum[kNumPieces];
-    ToBoxes(parts_.tile_boxes[box], sum);
+    ToBoxes(parts.tile_boxes[box], sum);
     const Tile* chosen[kLanes];
     int num_chosen = 0;
     for (std::uint32_t bits = BitsNotAbove<kBytes>(sum, limit_); bits != 0;
          bits &= bits - 1) {
-      const Tile& tile = parts_.tiles[box * kLanes + FirstOf(bits)];
+      const Tile& tile = parts.tiles[box * kLanes + FirstOf(bits)];
       ToTile(tile.along, coordinates_, sum);
       chosen[num_chosen] = &tile;
       num_chosen += BitsNotAbove<kBytes>(sum, limit_) != 0;
@@ -202,7 +210,7 @@ class Search {
     if (num_chosen == 0) return false;
     for (int k = 0; k < num_chosen; ++k) LookAt(*chosen[k]);
     const float least = LeastOf(best_);
-    if (least < least_) SetLeast(least);
+    if (least < least_) SetLeast(parts, least);
     return any_ &&
            (least_ < start_.squared_distance || Result().index < start_.index);
   }
@@ -212,19 +220,21 @@ class Search {
     ToTile(tile.bins, descriptor_, sum);
     for (int piece = 0; piece < kNumPieces; ++piece) {
       const Int index = Piece<kBytes>(tile.index, piece);
-      const Int is_nearer =
-          (sum[piece] < best_[piece]) |
-          ((sum[piece] == best_[piece]) & (index < best_index_[piece]));
-      best_[piece] = is_nearer ? sum[piece] : best_[piece];
-      best_index_[piece] = is_nearer ? index : best_index_[piece];
+      // Each choice by one comparison: GCC makes others one lane at a time.
+      const Int lower = index < best_index_[piece] ? index : best_index_[piece];
+      const Int of_equals =
+          sum[piece] == best_[piece] ? lower : best_index_[piece];
+      best_index_[piece] = sum[piece] < best_[piece] ? index : of_equals;
+      best_[piece] = sum[piece] < best_[piece] ? sum[piece] : best_[piece];
     }
   }
 
-  const DescriptorIndex::Parts& parts_;
   const float* descriptor_;
   const float* coordinates_;
   NearestDescriptor start_;
   bool any_;
+  bool is_done_;  // Some is enough, and found.
+  std::size_t nearest_box_;
 
   Float best_[kNumPieces];  // On each lane.
   Int best_index_[kNumPieces];
@@ -232,33 +242,45 @@ class Search {
   float limit_;  // Square of the right side of (3).
 };
 
+// Of up to kLanes queries, box by box: what they look at in it stays in the
+// cache.
 template <int kBytes>
-QUATRO_SIMD_INLINE NearestDescriptor Find(const DescriptorIndex::Parts& parts,
-                                          const float* descriptor,
-                                          const float* coordinates,
-                                          const NearestDescriptor& start,
-                                          bool any) {
-  Search<kBytes> search(parts, descriptor, coordinates, start, any);
-  search.Run();
-  return search.Result();
+QUATRO_SIMD_INLINE void Find(const DescriptorIndex::Parts& parts,
+                             bool any,
+                             std::span<DescriptorQuery> queries) {
+  Search<kBytes> searches[kLanes];
+  std::uint32_t bits[kLanes];
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    searches[q].Start(parts, queries[q], any);
+  }
+  for (std::size_t k = 0; k < parts.large_boxes.size(); ++k) {
+    std::uint32_t any_bits = 0;
+    for (std::size_t q = 0; q < queries.size(); ++q) {
+      bits[q] = searches[q].Choose(parts, k);
+      any_bits |= bits[q];
+    }
+    for (; any_bits != 0; any_bits &= any_bits - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(any_bits));
+      for (std::size_t q = 0; q < queries.size(); ++q) {
+        if (bits[q] >> lane & 1) searches[q].GoOn(parts, k * kLanes + lane);
+      }
+    }
+  }
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    queries[q].best = searches[q].Result();
+  }
 }
 
-QUATRO_SIMD_AVX512 NearestDescriptor
-FindByAvx512(const DescriptorIndex::Parts& parts,
-             const float* descriptor,
-             const float* coordinates,
-             const NearestDescriptor& start,
-             bool any) {
-  return Find<64>(parts, descriptor, coordinates, start, any);
+QUATRO_SIMD_AVX512 void FindByAvx512(const DescriptorIndex::Parts& parts,
+                                     bool any,
+                                     std::span<DescriptorQuery> queries) {
+  Find<64>(parts, any, queries);
 }
 
-QUATRO_SIMD_AVX2 NearestDescriptor
-FindByAvx2(const DescriptorIndex::Parts& parts,
-           const float* descriptor,
-           const float* coordinates,
-           const NearestDescriptor& start,
-           bool any) {
-  return Find<32>(parts, descriptor, coordinates, start, any);
+QUATRO_SIMD_AVX2 void FindByAvx2(const DescriptorIndex::Parts& parts,
+                                 bool any,
+                                 std::span<DescriptorQuery> queries) {
+  Find<32>(parts, any, queries);
 }
 
 }  // namespace
@@ -348,20 +370,25 @@ DescriptorIndex::DescriptorIndex(const Fpfh& descriptors,
   }
 }
 
-NearestDescriptor DescriptorIndex::FindNearer(const float* descriptor,
-                                              const float* coordinates,
-                                              NearestDescriptor best,
-                                              bool any,
-                                              SimdLevel level) const {
-  switch (level) {
-    case SimdLevel::kAvx512:
-      return FindByAvx512(parts_, descriptor, coordinates, best, any);
-    case SimdLevel::kAvx2:
-      return FindByAvx2(parts_, descriptor, coordinates, best, any);
-    case SimdLevel::kBaseline:
-      break;
+void DescriptorIndex::FindNearer(bool any,
+                                 SimdLevel level,
+                                 std::span<DescriptorQuery> queries) const {
+  while (!queries.empty()) {
+    const auto some =
+        queries.first(std::min<std::size_t>(kLanes, queries.size()));
+    queries = queries.subspan(some.size());
+    switch (level) {
+      case SimdLevel::kAvx512:
+        FindByAvx512(parts_, any, some);
+        break;
+      case SimdLevel::kAvx2:
+        FindByAvx2(parts_, any, some);
+        break;
+      case SimdLevel::kBaseline:
+        Find<16>(parts_, any, some);
+        break;
+    }
   }
-  return Find<16>(parts_, descriptor, coordinates, best, any);
 }
 
 }  // namespace quatro

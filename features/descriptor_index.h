@@ -27,6 +27,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "features/fpfh.h"
@@ -55,6 +56,12 @@ struct NearestDescriptor {
   std::int32_t index = std::numeric_limits<std::int32_t>::max();  // Of none.
 };
 
+struct DescriptorQuery {
+  const float* descriptor;
+  const float* coordinates;  // Along the axes of the index.
+  NearestDescriptor best;
+};
+
 class DescriptorIndex {
  public:
   // All-zero descriptors, and those not finite, are left out.
@@ -69,14 +76,12 @@ class DescriptorIndex {
     return coordinates_;
   }
 
-  // The nearest to a descriptor that has the given coordinates along the same
-  // axes, if it is nearer than `best`; else `best`. Where `any` will do, the
-  // first nearer one that comes up. `level` no more than BestSimdLevel().
-  NearestDescriptor FindNearer(const float* descriptor,
-                               const float* coordinates,
-                               NearestDescriptor best,
-                               bool any,
-                               SimdLevel level) const;
+  // Replaces the `best` of each by the nearest, if that is nearer. Where `any`
+  // will do, by the first nearer one that comes up. Fastest for queries that
+  // are near each other. `level` no more than BestSimdLevel().
+  void FindNearer(bool any,
+                  SimdLevel level,
+                  std::span<DescriptorQuery> queries) const;
 
   struct Tile {
     FloatRow bins[kFpfhSize];

@@ -49,6 +49,8 @@ struct Neighborhood {
   std::vector<float> weights;
   std::size_t size = 0;
 
+  // All of them, or what the sum in (2) takes: which and how far.
+  template <bool kWithPoints>
   void Gather(const std::vector<OrientedPoint>& points,
               const Neighborhoods& neighborhoods,
               std::size_t i) {
@@ -62,20 +64,24 @@ struct Neighborhood {
       index.resize(end - begin);
       bins.resize(end - begin);
     }
-    size = 0;
+    std::size_t to = 0;
     for (std::size_t k = begin; k < end; ++k) {
       const std::int32_t j = neighborhoods.index[k];
       const OrientedPoint& point = points[static_cast<std::size_t>(j)];
-      x[size] = point.x;
-      y[size] = point.y;
-      z[size] = point.z;
-      nx[size] = point.nx;
-      ny[size] = point.ny;
-      nz[size] = point.nz;
-      index[size] = j;
-      squared_distance[size] = neighborhoods.squared_distance[k];
-      size += point.has_normal && static_cast<std::size_t>(j) != i;
+      if constexpr (kWithPoints) {
+        x[to] = point.x;
+        y[to] = point.y;
+        z[to] = point.z;
+        nx[to] = point.nx;
+        ny[to] = point.ny;
+        nz[to] = point.nz;
+      } else {
+        index[to] = j;
+        squared_distance[to] = neighborhoods.squared_distance[k];
+      }
+      to += point.has_normal & (static_cast<std::size_t>(j) != i);
     }
+    size = to;
   }
 };
 
@@ -292,7 +298,7 @@ Fpfh ComputeFpfh(const PointsRef& points,
          i < static_cast<std::size_t>(end);
          ++i) {
       if (!oriented[i].has_normal) continue;
-      around.Gather(oriented, neighborhoods, i);
+      around.Gather<true>(oriented, neighborhoods, i);
       FindBins(oriented[i],
                around.x.data(),
                around.y.data(),
@@ -313,7 +319,7 @@ Fpfh ComputeFpfh(const PointsRef& points,
          ++i) {
       if (!oriented[i].has_normal) continue;
       // Equation (2).
-      around.Gather(oriented, neighborhoods, i);
+      around.Gather<false>(oriented, neighborhoods, i);
       const std::int32_t num_coincident = FindWeights(
           around.squared_distance.data(), around.size, around.weights.data());
       const auto num = static_cast<std::int32_t>(around.size) - num_coincident;

@@ -43,14 +43,18 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
       static_cast<std::size_t>(source.cols()));
   const auto& sources = source_index->order();
   const auto find_target = [&](Eigen::Index begin, Eigen::Index end) {
+    std::vector<DescriptorQuery> queries;
+    for (Eigen::Index k = begin; k < end; ++k) {
+      const std::int32_t i = sources[static_cast<std::size_t>(k)];
+      queries.push_back({source.col(i).data(),
+                         source_index->coordinates().col(i).data(),
+                         NearestDescriptor()});
+    }
+    target_index->FindNearer(false, level, queries);
     for (Eigen::Index k = begin; k < end; ++k) {
       const std::int32_t i = sources[static_cast<std::size_t>(k)];
       target_of[static_cast<std::size_t>(i)] =
-          target_index->FindNearer(source.col(i).data(),
-                                   source_index->coordinates().col(i).data(),
-                                   {},
-                                   false,
-                                   level);
+          queries[static_cast<std::size_t>(k - begin)].best;
     }
   };
   ParallelFor(num_threads,
@@ -71,17 +75,26 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
       best = {nearest.squared_distance, static_cast<std::int32_t>(i)};
     }
   }
-  const auto& targets = target_index->order();
+  std::vector<std::int32_t> targets;
+  for (const std::int32_t j : target_index->order()) {
+    if (source_of[static_cast<std::size_t>(j)].index !=
+        NearestDescriptor{}.index) {
+      targets.push_back(j);
+    }
+  }
   const auto find_source = [&](Eigen::Index begin, Eigen::Index end) {
+    std::vector<DescriptorQuery> queries;
     for (Eigen::Index k = begin; k < end; ++k) {
       const std::int32_t j = targets[static_cast<std::size_t>(k)];
-      NearestDescriptor& best = source_of[static_cast<std::size_t>(j)];
-      if (best.index == NearestDescriptor{}.index) continue;
-      best = source_index->FindNearer(target.col(j).data(),
-                                      target_index->coordinates().col(j).data(),
-                                      best,
-                                      true,
-                                      level);
+      queries.push_back({target.col(j).data(),
+                         target_index->coordinates().col(j).data(),
+                         source_of[static_cast<std::size_t>(j)]});
+    }
+    source_index->FindNearer(true, level, queries);
+    for (Eigen::Index k = begin; k < end; ++k) {
+      const std::int32_t j = targets[static_cast<std::size_t>(k)];
+      source_of[static_cast<std::size_t>(j)] =
+          queries[static_cast<std::size_t>(k - begin)].best;
     }
   };
   ParallelFor(num_threads,

@@ -31,12 +31,19 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
   const std::size_t n = matches.size();
   if (n < 3) return matches;
   const double s2 = options.scale * options.scale;
-  const auto sides_agree = [&](const Match& a, const Match& b) {
+  // Side by side, since they are looked up at random.
+  struct Ends {
+    Eigen::Vector3d source, target;
+  };
+  std::vector<Ends> ends;
+  ends.reserve(n);
+  for (const Match& match : matches) {
+    ends.push_back({source.col(match.source), target.col(match.target)});
+  }
+  const auto sides_agree = [&](std::size_t a, std::size_t b) {
     // Equation (1), squared.
-    const double p2 =
-        (source.col(a.source) - source.col(b.source)).squaredNorm();
-    const double q2 =
-        (target.col(a.target) - target.col(b.target)).squaredNorm();
+    const double p2 = (ends[a].source - ends[b].source).squaredNorm();
+    const double q2 = (ends[a].target - ends[b].target).squaredNorm();
     return s2 * q2 < p2 && s2 * p2 < q2;
   };
 
@@ -53,9 +60,7 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
     if (options.max_num_triples == 0 && passes[a] && passes[b] && passes[c]) {
       continue;
     }
-    if (sides_agree(matches[a], matches[b]) &&
-        sides_agree(matches[b], matches[c]) &&
-        sides_agree(matches[c], matches[a])) {
+    if (sides_agree(a, b) && sides_agree(b, c) && sides_agree(c, a)) {
       passes[a] = passes[b] = passes[c] = true;
       if (++num_passed == options.max_num_triples) break;
     }

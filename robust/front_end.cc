@@ -5,13 +5,16 @@
 
 #include <glog/logging.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "features/matching.h"
 #include "features/normals.h"
+#include "features/parallel.h"
 #include "features/voxel_grid.h"
 
 namespace quatro {
@@ -31,14 +34,14 @@ AssumedSensor AssumeSensor(const Points& points, const Eigen::Vector3d& up) {
   return sensor;
 }
 
-// Sets what is kept of the cloud and returns its descriptors.
+// Sets what is kept of the cloud, whose tree there is, and returns its
+// descriptors.
 Fpfh Describe(const Points& points,
               const Eigen::Vector3d& up,
               const FrontEndOptions& options,
               int num_threads,
               DescribedCloud* cloud) {
   cloud->sensor = AssumeSensor(points, up);
-  cloud->tree = std::make_shared<const KdTree>(points);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(*cloud->tree, options.fpfh_radius, num_threads);
   cloud->normals = EstimateNormals(points,
@@ -95,20 +98,33 @@ MatchedClouds MatchClouds(
     if (progress) progress(clouds.stage_times.back());
   };
 
-  const auto source_voxels =
-      SampleVoxels(source.points, options.voxel_size, &clouds.error);
-  if (!source_voxels) {
-    clouds.error = "source: " + clouds.error;
+  // Of both at once.
+  std::array<std::optional<Points>, 2> voxels;
+  std::array<std::string, 2> errors;
+  const auto for_both = [&](const auto& body) {
+    ParallelFor(num_threads, 2, 1, [&](Eigen::Index begin, Eigen::Index end) {
+      for (Eigen::Index i = begin; i < end; ++i) {
+        body(static_cast<std::size_t>(i));
+      }
+    });
+  };
+  const std::array<const PointCloud*, 2> given = {&source, &target};
+  for_both([&](std::size_t i) {
+    voxels[i] = SampleVoxels(given[i]->points, options.voxel_size, &errors[i]);
+  });
+  for (const std::size_t i : {0u, 1u}) {
+    if (voxels[i]) continue;
+    clouds.error = (i == 0 ? "source: " : "target: ") + errors[i];
     return clouds;
   }
-  const auto target_voxels =
-      SampleVoxels(target.points, options.voxel_size, &clouds.error);
-  if (!target_voxels) {
-    clouds.error = "target: " + clouds.error;
-    return clouds;
-  }
+  const auto& [source_voxels, target_voxels] = voxels;
   finish_stage("voxels");
 
+  const std::array<DescribedCloud*, 2> described = {&clouds.source,
+                                                    &clouds.target};
+  for_both([&](std::size_t i) {
+    described[i]->tree = std::make_shared<const KdTree>(*voxels[i]);
+  });
   const Fpfh source_fpfh =
       Describe(*source_voxels, source_up, options, num_threads, &clouds.source);
   const Fpfh target_fpfh =
