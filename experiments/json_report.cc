@@ -3,9 +3,9 @@
 
 #include "experiments/json_report.h"
 
+#include <quatro/version.h>
 #include <cmath>
 #include <optional>
-#include <quatro/version.h>
 #include <vector>
 
 #include "solvers/rigid3.h"

@@ -5,9 +5,9 @@
 
 #include <gflags/gflags.h>
 
+#include <quatro/version.h>
 #include <cstdio>
 #include <cstdlib>
-#include <quatro/version.h>
 
 DECLARE_bool(help);
 DECLARE_bool(helpshort);

@@ -126,7 +126,7 @@ py::array ViewColumns(const std::vector<Eigen::Index>& columns,
                       py::handle owner) {
   static_assert(sizeof(Eigen::Index) == sizeof(std::int64_t));
   return ReadOnly(py::array_t<Eigen::Index>(
-      {static_cast<py::ssize_t>(columns.size())}, columns.data(), owner));
+      static_cast<py::ssize_t>(columns.size()), columns.data(), owner));
 }
 
 py::array TakePoints(Points points) {
