@@ -113,7 +113,8 @@ Eigen::MatrixXd BruteForceFpfh(const OrientedCloud& cloud, double radius) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(kFpfhSize);
     int k = 0;
     for (Eigen::Index j = 0; j < n; ++j) {
-      if (!are_neighbors(i, j)) continue;
+      // Points at the same place have no weight in (2).
+      if (!are_neighbors(i, j) || p.col(i) == p.col(j)) continue;
       sum += spfh.col(j) / (p.col(i) - p.col(j)).norm();
       ++k;
     }
@@ -237,6 +238,14 @@ TEST(ComputeFpfh, IsEquationTwo) {
     ExpectSameDescriptors(Describe(cloud).cast<double>(),
                           BruteForceFpfh(cloud, kRadius));
   }
+}
+
+TEST(ComputeFpfh, IsEquationTwoWithCopiesOfPoints) {
+  const OrientedCloud cloud = Street(400, 1);
+  OrientedCloud copied{cloud.points.replicate(1, 2),
+                       cloud.normals.replicate(1, 2)};
+  ExpectSameDescriptors(Describe(copied).cast<double>(),
+                        BruteForceFpfh(copied, kRadius));
 }
 
 TEST(ComputeFpfh, OfTwoPointsHasOneBinAPart) {
