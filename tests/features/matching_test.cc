@@ -219,8 +219,18 @@ TEST(MatchMutualNearest, IsSinglePrecisionToTheLastBitByAnyInstructions) {
 TEST(MatchMutualNearest, SquaresMayVanishOrOverflow) {
   const Fpfh source = ClusteredDescriptors(600, 1);
   const Fpfh target = ClusteredDescriptors(500, 2);
-  for (const float scale :
-       {1e-40f, 1e-25f, 1e-22f, 1e-20f, 1e-10f, 1e10f, 1e14f, 1e17f, 1e30f}) {
+  for (const float scale : {1e-40f,
+                            1e-25f,
+                            1e-24f,
+                            3e-24f,
+                            1e-23f,
+                            1e-22f,
+                            1e-20f,
+                            1e-10f,
+                            1e10f,
+                            1e14f,
+                            1e17f,
+                            1e30f}) {
     SCOPED_TRACE(scale);
     ExpectSinglePrecisionMatches(scale * source, scale * target);
   }
