@@ -18,7 +18,7 @@
 // each part of 11 bins then scaled to sum to 100.
 //
 // Pairs are taken in single precision, and the angle's bin by the side of its
-// edges that it is on: on real scans no bin was another than by
+// edges that it is on: on two real scans no bin was another than by
 // ComputePairFeature(), and descriptors differed by less than 1e-4.
 //
 // Source: Rusu, Blodow and Beetz, "Fast Point Feature Histograms (FPFH) for 3D
