@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/datasets/open_dataset.h"
+#include "experiments/gnc_film.h"
 #include "experiments/ins_flags.h"
 #include "experiments/methods.h"
 #include "experiments/number_text.h"
@@ -26,15 +27,16 @@
 #include "experiments/synthetic_protocols.h"
 #include "robust/presets.h"
 
-DEFINE_string(protocol,
-              "",
-              "On scans: loop, interval, yaw, timing, pairs, odometry or tilt "
-              "(of loops, no method). On matched points: tims (yaw from "
-              "differences, 95-99 % outliers), "
-              "degeneracy (1-5 true matches), quasi_inliers (right in xy, "
-              "wrong in z), sizes (a thousand to a million matches), slopes "
-              "(tilts of 2-15 deg with an INS) or surrogates (numbers for "
-              "draw_surrogates.py). Required");
+DEFINE_string(
+    protocol,
+    "",
+    "On scans: loop, interval, yaw, timing, pairs, odometry or tilt "
+    "(of loops, no method). On matched points: tims (yaw from "
+    "differences, 95-99 % outliers), "
+    "degeneracy (1-5 true matches), quasi_inliers (right in xy, "
+    "wrong in z), sizes (a thousand to a million matches), slopes "
+    "(tilts of 2-15 deg with an INS), surrogates or film (numbers for "
+    "draw_surrogates.py and draw_gnc_film.py). Required");
 DEFINE_string(output,
               "",
               "On scans: folder of the run, new or to go on with, required. "
@@ -75,6 +77,7 @@ DEFINE_int32(max_frames, 0, "Of odometry: of each drive; 0: all there are");
 DEFINE_uint64(seed, 1, "Of the choice of pairs and of the methods");
 DEFINE_string(shard, "1/1", "On scans: do part k of n alone, k/n");
 DEFINE_bool(merge, false, "On scans: put the parts in --output together");
+DEFINE_double(outliers, 0.9, "Of film: share of wrong differences");
 DEFINE_int32(seeds, 20, "On matched points: problems of each kind");
 DEFINE_int64(max_matches, 1000000, "Of sizes: the largest problem");
 DEFINE_int32(threads,
@@ -120,6 +123,12 @@ std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
     return quatro::RunSlopeProtocol(FLAGS_seeds, progress);
   }
   if (protocol == "surrogates") return quatro::TabulateSurrogates();
+  if (protocol == "film") {
+    quatro::FilmOptions options;
+    options.seed = FLAGS_seed;
+    options.outlier_ratio = FLAGS_outliers;
+    return quatro::TabulateFilm(quatro::FilmGnc(options));
+  }
   return std::nullopt;
 }
 
@@ -403,6 +412,9 @@ int main(int argc, char** argv) {
   std::string error;
   if (FLAGS_seeds < 1) return Fail("--seeds must be >= 1");
   if (FLAGS_max_matches < 1000) return Fail("--max_matches must be >= 1000");
+  if (!(FLAGS_outliers >= 0.0 && FLAGS_outliers < 1.0)) {
+    return Fail("--outliers must be in [0, 1)");
+  }
   if (FLAGS_threads < 0) return Fail("--threads must be >= 0");
   if (IsOnScans()) return RunOnScans();
   if (FLAGS_protocol == "odometry") return RunOdometryProtocol();
@@ -415,7 +427,7 @@ int main(int argc, char** argv) {
     return Fail(
         "--protocol=" + FLAGS_protocol +
         ", must be loop, interval, yaw, timing, pairs, odometry, tilt, tims, "
-        "degeneracy, quasi_inliers, sizes, slopes or surrogates");
+        "degeneracy, quasi_inliers, sizes, slopes, surrogates or film");
   }
   std::fputs(quatro::FormatTable(*table).c_str(), stdout);
   if (!FLAGS_output.empty() &&
