@@ -58,13 +58,6 @@ class PairListTest : public ProgramTest {
   }
 };
 
-TEST_F(PairListTest, QuotedCells) {
-  EXPECT_THAT(*SplitCsvLine("a,\"1,2\",,\"say \"\"so\"\"\"\r"),
-              ElementsAre("a", "1,2", "", "say \"so\""));
-  EXPECT_THAT(*SplitCsvLine(""), ElementsAre(""));
-  EXPECT_FALSE(SplitCsvLine("a,\"b"));
-}
-
 TEST_F(PairListTest, CsvWithTruthInsAndNegatives) {
   Put("scans/a.bin", "x");
   Put("pairs.csv",
