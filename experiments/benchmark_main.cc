@@ -200,6 +200,6 @@ int main(int argc, char** argv) {
                                   : FLAGS_source + " -> " + FLAGS_target);
   const std::size_t num_run = benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
-  if (num_run == 0) return Fail("--benchmark_filter: fits no benchmark");
-  return quatro::kExitDone;
+  // It has said so: the filter fits nothing, or is no regular expression.
+  return num_run == 0 ? quatro::kExitBadInput : quatro::kExitDone;
 }

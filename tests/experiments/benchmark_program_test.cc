@@ -36,7 +36,7 @@ class BenchmarkProgramTest : public ProgramTest {
   }
 
   // A wall and a floor as a small scan.
-  std::string WriteCloud(const std::string& name) {
+  std::string WriteScan(const std::string& name) {
     PointCloud cloud;
     cloud.points.resize(3, 800);
     for (Eigen::Index i = 0; i < 800; ++i) {
@@ -45,7 +45,9 @@ class BenchmarkProgramTest : public ProgramTest {
       cloud.points.col(i) = i < 400 ? Eigen::Vector3d(u - 2.0, v - 2.0, -1.0)
                                     : Eigen::Vector3d(3.0, u - 2.0, v - 1.0);
     }
-    return Write(name, FormatKittiBin(cloud));
+    std::string error;
+    EXPECT_TRUE(WriteCloud(cloud, PathOf(name), &error)) << error;
+    return PathOf(name);
   }
 };
 
@@ -72,7 +74,7 @@ TEST_F(BenchmarkProgramTest, MeasuresGraphAgainstItsLimit) {
 }
 
 TEST_F(BenchmarkProgramTest, TakesPairFromFiles) {
-  const std::string path = WriteCloud("a.bin");
+  const std::string path = WriteScan("a.bin");
   const json run = Run("^(voxels|neighborhoods|fpfh)/(quatro|limit|nanoflann)",
                        {"--source=" + path, "--target=" + path});
   ASSERT_EQ(run.at("benchmarks").size(), 5u);
@@ -81,7 +83,7 @@ TEST_F(BenchmarkProgramTest, TakesPairFromFiles) {
 }
 
 TEST_F(BenchmarkProgramTest, RefusesBadInput) {
-  const std::string path = WriteCloud("a.bin");
+  const std::string path = WriteScan("a.bin");
   const std::string none = Write("none.bin", "");
   const auto expect = [&](const std::vector<std::string>& flags,
                           const std::string& what,
@@ -95,10 +97,11 @@ TEST_F(BenchmarkProgramTest, RefusesBadInput) {
   expect({"--threads=-1"}, "num_threads = -1", ">= 0");
   expect({"--source=" + path}, "--source and --target", "together");
   expect({"--source=" + path, "--target=" + PathOf("b.bin")}, "b.bin", "");
-  expect({"--source=" + path, "--target=" + none}, "none.bin", "no points");
+  expect({"--source=" + path, "--target=" + none}, "none.bin", "empty");
   expect({"--frame=1"}, "frame", "");
   expect({"--benchmark_frame=1"}, "--benchmark_frame=1", "not a flag");
-  expect({"--benchmark_filter=sky"}, "--benchmark_filter", "fits no");
+  expect({"--benchmark_filter=sky"}, "match", "sky");
+  expect({"--benchmark_filter=(sky"}, "regular expression", "");
   expect({"--benchmark_out=" + PathOf("no/run.json")}, "run.json", "");
 }
 

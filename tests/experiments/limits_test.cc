@@ -33,7 +33,7 @@ std::optional<bool> IsConsistent(const MatchedProblem& problem,
 
 TEST(Limits, PairTestIsThatOfLengthsAtEveryLevel) {
   // Sizes within, at and beyond a word's end.
-  for (const Eigen::Index n : {3, 31, 32, 33, 64, 175}) {
+  for (const Eigen::Index n : {20, 31, 32, 33, 64, 175}) {
     const MatchedProblem problem = MakeOutlierProblem(n, 0.5, 0.1, 7);
     for (int level = 0; level <= static_cast<int>(BestSimdLevel()); ++level) {
       PairTestLimit limit(problem.source, problem.target, kBound);
@@ -52,7 +52,7 @@ TEST(Limits, PairTestIsThatOfLengthsAtEveryLevel) {
       }
       EXPECT_GE(num_tested, n * (n - 1) / 2 * 9 / 10);
       EXPECT_GT(num_consistent, 0) << n;
-      EXPECT_TRUE(num_consistent < num_tested || n == 3) << n;
+      EXPECT_LT(num_consistent, num_tested) << n;
     }
   }
 }
