@@ -69,6 +69,27 @@ std::string BenchmarkFlag(const std::vector<std::string>& args,
   return {};
 }
 
+// Those that Google Benchmark would answer otherwise than we do.
+bool AreValid(const std::vector<std::string>& args, std::string* error) {
+  const std::string min_time = BenchmarkFlag(args, "min_time");
+  const auto seconds = quatro::ParseFiniteNumber(min_time);
+  if (!min_time.empty() && !(seconds && *seconds >= 0.0)) {
+    *error = "--benchmark_min_time=" + min_time + ", must be a number >= 0";
+    return false;
+  }
+  for (const char* name : {"format", "out_format"}) {
+    const std::string format = BenchmarkFlag(args, name);
+    if (format.empty() || format == "json" || format == "console" ||
+        format == "csv") {
+      continue;
+    }
+    *error = std::string("--benchmark_") + name + "=" + format +
+             ", must be json, console or csv";
+    return false;
+  }
+  return true;
+}
+
 std::optional<std::vector<int>> ParseSizes(std::string* error) {
   std::vector<int> sizes;
   for (const std::string_view field : quatro::SplitFields(FLAGS_sizes, ",")) {
@@ -137,6 +158,7 @@ int main(int argc, char** argv) {
   std::string error;
   const auto sizes = ParseSizes(&error);
   if (!sizes) return Fail(error);
+  if (!AreValid(their_args, &error)) return Fail(error);
   auto options = quatro::MakePreset(FLAGS_preset);
   if (!options) return Fail("--preset=" + FLAGS_preset + ": there is none");
   options->num_threads = FLAGS_threads;

@@ -100,6 +100,8 @@ TEST_F(BenchmarkProgramTest, RefusesBadInput) {
   expect({"--source=" + path, "--target=" + none}, "none.bin", "empty");
   expect({"--frame=1"}, "frame", "");
   expect({"--benchmark_frame=1"}, "--benchmark_frame=1", "not a flag");
+  expect({"--benchmark_min_time=x"}, "--benchmark_min_time=x", "a number");
+  expect({"--benchmark_out_format=x"}, "--benchmark_out_format=x", "json");
   expect({"--benchmark_filter=sky"}, "match", "sky");
   expect({"--benchmark_filter=(sky"}, "regular expression", "");
   expect({"--benchmark_out=" + PathOf("no/run.json")}, "run.json", "");
