@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What each stage between two clouds and a pose is given, made once.
+
+#ifndef QUATRO_EXPERIMENTS_BENCHMARKS_PAIR_INPUT_H_
+#define QUATRO_EXPERIMENTS_BENCHMARKS_PAIR_INPUT_H_
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "features/fpfh.h"
+#include "features/kd_tree.h"
+#include "features/matching.h"
+#include "features/point_cloud.h"
+#include "features/types.h"
+#include "robust/consistency_graph.h"
+#include "robust/distinct_matches.h"
+#include "robust/evidence.h"
+#include "robust/quasi_so3.h"
+#include "robust/registration.h"
+
+namespace quatro {
+
+struct CloudInput {
+  PointCloud cloud;
+  Points voxels;  // [m]
+  std::unique_ptr<const KdTree> tree;
+  Neighborhoods neighborhoods;
+  Points normals;
+  Fpfh fpfh;
+};
+
+struct PairInput {
+  RegistrationOptions options;
+  std::array<CloudInput, 2> clouds;  // Source, target.
+  std::vector<Match> mutual_matches;
+  MatchedClouds matched;
+  DistinctMatches matches;  // Of those that passed the tuple test.
+  ConsistencyOptions consistency;
+  std::unique_ptr<const Graph> graph;
+  Points clique_source, clique_target;  // [m]
+  QuasiSo3 rotation;                    // Of the ring of differences.
+  RegistrationSummary summary;
+
+  // Whether there is a pose, and so the stages after it.
+  bool IsSolved() const { return summary.target_from_source().has_value(); }
+};
+
+// Options and clouds must be such that Register() has no error.
+PairInput MakePairInput(PointCloud source,
+                        PointCloud target,
+                        const RegistrationOptions& options);
+
+// Called when a stage is first run, and not if none is.
+using PairSource = std::function<const PairInput&()>;
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_BENCHMARKS_PAIR_INPUT_H_
