@@ -82,6 +82,31 @@ TEST_F(BenchmarkProgramTest, TakesPairFromFiles) {
   EXPECT_EQ(run.at("context").at("pair"), path + " -> " + path);
 }
 
+TEST_F(BenchmarkProgramTest, SimulatesPairThatHasPose) {
+  const json run = Run("^(gicp|verdict|register)/quatro(/|$)", {});
+  ASSERT_EQ(run.at("benchmarks").size(), 4u);
+  for (const json& entry : run.at("benchmarks")) {
+    EXPECT_FALSE(entry.contains("error_occurred")) << entry;
+    EXPECT_EQ(entry.value("registered", 1.0), 1.0) << entry;
+  }
+}
+
+TEST_F(BenchmarkProgramTest, SaysWhichStagesNeedPose) {
+  const std::string path = WriteScan("a.bin");
+  const std::string line = PathOf("line.bin");
+  PointCloud cloud;
+  cloud.points = Eigen::Matrix3Xd::Zero(3, 100);
+  cloud.points.row(0).setLinSpaced(-9.0, 9.0);
+  std::string error;
+  ASSERT_TRUE(WriteCloud(cloud, line, &error)) << error;
+  const json run = Run("^(gicp|solve)/quatro(/|$)",
+                       {"--source=" + path, "--target=" + line});
+  ASSERT_EQ(run.at("benchmarks").size(), 2u);
+  EXPECT_FALSE(run.at("benchmarks").at(0).contains("error_occurred"));
+  EXPECT_EQ(run.at("benchmarks").at(1).at("error_message"),
+            "the pair has no pose");
+}
+
 TEST_F(BenchmarkProgramTest, RefusesBadInput) {
   const std::string path = WriteScan("a.bin");
   const std::string none = Write("none.bin", "");

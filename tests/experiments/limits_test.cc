@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "experiments/benchmarks/peak_memory.h"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr double kBound = 0.6;
 
-// 1: consistent, 0: not, nullopt: too close for single precision.
+// Nullopt: too close to the bound for single precision.
 std::optional<bool> IsConsistent(const MatchedProblem& problem,
                                  Eigen::Index i,
                                  Eigen::Index j) {
@@ -31,28 +32,40 @@ std::optional<bool> IsConsistent(const MatchedProblem& problem,
   return gap < 0.0;
 }
 
+void ExpectThatOfLengths(const MatchedProblem& problem, SimdLevel level) {
+  const Eigen::Index n = problem.source.cols();
+  PairTestLimit limit(problem.source, problem.target, kBound);
+  limit.Run(level);
+  Eigen::Index num_consistent = 0;
+  Eigen::Index num_tested = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const auto expected = IsConsistent(problem, i, j);
+      if (!expected) continue;
+      ++num_tested;
+      num_consistent += *expected;
+      ASSERT_EQ(limit.IsConsistent(i, j), *expected) << i << ", " << j;
+    }
+  }
+  EXPECT_GE(num_tested, n * (n - 1) / 2 * 9 / 10);
+  EXPECT_GT(num_consistent, 0);
+  EXPECT_LT(num_consistent, num_tested);
+}
+
 TEST(Limits, PairTestIsThatOfLengthsAtEveryLevel) {
-  // Sizes within, at and beyond a word's end.
+  // Sizes within, at and beyond a word's end; matches far apart, and no further
+  // than a few bounds.
   for (const Eigen::Index n : {20, 31, 32, 33, 64, 175}) {
-    const MatchedProblem problem = MakeOutlierProblem(n, 0.5, 0.1, 7);
-    for (int level = 0; level <= static_cast<int>(BestSimdLevel()); ++level) {
-      PairTestLimit limit(problem.source, problem.target, kBound);
-      limit.Run(static_cast<SimdLevel>(level));
-      Eigen::Index num_consistent = 0;
-      Eigen::Index num_tested = 0;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        for (Eigen::Index j = 0; j < i; ++j) {
-          const auto expected = IsConsistent(problem, i, j);
-          if (!expected) continue;
-          ++num_tested;
-          num_consistent += *expected;
-          ASSERT_EQ(limit.IsConsistent(i, j), *expected)
-              << i << ", " << j << " of " << n << ", level " << level;
-        }
+    for (const double scale : {1.0, 0.02}) {
+      MatchedProblem problem = MakeOutlierProblem(n, 0.5, 0.1, 7);
+      problem.source *= scale;
+      problem.target *= scale;
+      for (int level = 0; level <= static_cast<int>(BestSimdLevel()); ++level) {
+        SCOPED_TRACE(std::to_string(n) + " matches, scale " +
+                     std::to_string(scale) + ", level " +
+                     std::to_string(level));
+        ExpectThatOfLengths(problem, static_cast<SimdLevel>(level));
       }
-      EXPECT_GE(num_tested, n * (n - 1) / 2 * 9 / 10);
-      EXPECT_GT(num_consistent, 0) << n;
-      EXPECT_LT(num_consistent, num_tested) << n;
     }
   }
 }
