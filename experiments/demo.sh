@@ -39,26 +39,16 @@ out=build/demo
 mkdir -p "$out"
 : >"$log"
 
-#   step <what> <command>...: one line here, the rest in the log
-step() {
-  echo "$1" >&2
-  shift
-  if ! "$@" >>"$log" 2>&1 </dev/null; then
-    tail -n 30 "$log" >&2
-    echo "demo.sh: failed; the whole log is $PWD/$log" >&2
-    exit 3
-  fi
-}
-step "installing" quatro_install
-step "configuring" quatro_configure release build
-step "building (a few minutes the first time)" \
+quatro_step "installing" quatro_install
+quatro_step "configuring" quatro_configure release build
+quatro_step "building (a few minutes the first time)" \
      quatro_build build quatro_simulate quatro_register
 
 simulated=
 if [[ -z $source ]]; then
   simulated=$(mktemp -d)
   trap 'rm -rf -- "$simulated"' EXIT
-  step "simulating" build/bin/quatro_simulate --output="$simulated" --overwrite \
+  quatro_step "simulating" build/bin/quatro_simulate --output="$simulated" --overwrite \
        --num_frames=11 --frame_spacing=1.0
   source=$(find "$simulated" -name 000010.bin -print -quit)
   target=$(find "$simulated" -name 000000.bin -print -quit)

@@ -45,19 +45,9 @@ mkdir -p build "$output"
 log=build/setup.log
 : >"$log"
 
-#   step <what> <command>...: one line here, the rest in the log
-step() {
-  echo "$1" >&2
-  shift
-  if ! "$@" >>"$log" 2>&1 </dev/null; then
-    tail -n 30 "$log" >&2
-    echo "reproduce.sh: failed; the whole log is $PWD/$log" >&2
-    exit 3
-  fi
-}
-step "installing" quatro_install
-step "configuring" quatro_configure release build
-step "building (a few minutes the first time)" \
+quatro_step "installing" quatro_install
+quatro_step "configuring" quatro_configure release build
+quatro_step "building (a few minutes the first time)" \
      quatro_build build quatro_simulate quatro_experiment
 
 drives=(00 02 05 06 07 08)

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# From a clean clone to programs. Sourced by tests/run.sh, experiments/demo.sh
-# and .ci/run, with the root of the repository as current directory.
+# From a clean clone to programs. Sourced by tests/run.sh, .ci/run,
+# experiments/demo.sh and reproduce.sh, with the root of the repository as current directory.
 
 # What cannot be installed may be there by other means: cmake finds out.
 quatro_install() {
@@ -34,4 +34,16 @@ quatro_build() {
     targets=(--target "$@")
   fi
   cmake --build "$folder" -j "$(quatro_jobs)" "${targets[@]}"
+}
+
+#   quatro_step <what> <command>...: one line here, the rest in the file $log;
+# ends the script with exit code 3 if the command fails
+quatro_step() {
+  echo "$1" >&2
+  shift
+  if ! "$@" >>"$log" 2>&1 </dev/null; then
+    tail -n 30 "$log" >&2
+    echo "${0##*/}: failed; the whole log is $PWD/$log" >&2
+    exit 3
+  fi
 }
