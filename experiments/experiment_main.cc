@@ -349,7 +349,9 @@ int RunOdometryProtocol() {
   const quatro::Table table = quatro::MakeTableTwo(entries);
   std::fputs(quatro::FormatTable(table).c_str(), stdout);
   if (!quatro::WriteOutputs(
-          {{FLAGS_output + "/table_two.csv", quatro::FormatCsv(table)}},
+          {{FLAGS_output + "/table_two.csv", quatro::FormatCsv(table)},
+           {FLAGS_output + "/table_two.tex",
+            quatro::FormatTableTwoLatex(entries)}},
           &error)) {
     return Fail(error);
   }

@@ -83,6 +83,7 @@ std::string ChecksumOf(const std::vector<PairTask>& tasks) {
   std::string bytes;
   for (const PairTask& task : tasks) {
     bytes += task.name + '\n' + task.set + '\n' + task.bin + '\n';
+    bytes += std::to_string(task.added_yaw) + '\n';
     if (task.true_target_from_source) {
       AppendBits(*task.true_target_from_source, &bytes);
     }

@@ -31,7 +31,7 @@ struct PairExperiment {
   Manifest manifest;
 };
 
-// Name, truth and INS of each, bit for bit.
+// Of name, turn, truth and INS of each.
 std::string ChecksumOf(const std::vector<PairTask>& tasks);
 
 // Runs, or goes on with, the experiment's part. Fails if the folder's manifest

@@ -232,6 +232,17 @@ TEST_F(TiltedRegistrationTest, RollAndPitchOfAnInsAreTaken) {
   }
 }
 
+// The INS comes after the matches, which several estimators may share.
+TEST_F(TiltedRegistrationTest, ScansMatchedWithoutTheInsGiveTheSame) {
+  const RegistrationOptions without = options_;
+  const MatchedClouds matched =
+      MatchClouds(tilted_source_, tilted_target_, without);
+  for (const InsMode mode : {InsMode::kLeveled, InsMode::kFused}) {
+    const RegistrationSummary expected = RegisterTilted(mode);
+    ExpectSameBits(RegisterMatched(matched, options_), expected);
+  }
+}
+
 TEST_F(TiltedRegistrationTest, WithoutAnInsAYawAloneIsOff) {
   const RegistrationSummary summary = RegisterTilted(InsMode::kNone);
   if (!summary.target_from_source()) return;
