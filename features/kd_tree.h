@@ -14,6 +14,7 @@
 
 namespace quatro {
 
+// A point of the tree, as seen from a query.
 struct Neighbor {
   Eigen::Index index = 0;
   double squared_distance = 0.0;  // [m^2]
@@ -23,11 +24,13 @@ struct Neighbor {
 // called from several threads.
 class KdTree {
  public:
+  // Of these points; it can be moved, not copied.
   explicit KdTree(Points points);
   ~KdTree();
   KdTree(KdTree&&) noexcept;
   KdTree& operator=(KdTree&&) noexcept;
 
+  // The copy.
   const Points& points() const { return *points_; }
 
   // All points no further than `radius` [m], in ascending order of index.
@@ -51,11 +54,13 @@ struct Neighborhoods {
   std::vector<std::int32_t> index;
   std::vector<float> squared_distance;  // [m^2]
 
+  // How many points have a row.
   Eigen::Index size() const {
     return static_cast<Eigen::Index>(row_begin.size()) - 1;
   }
 };
 
+// Of each point of the tree, those within `radius` [m].
 Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);

@@ -24,6 +24,7 @@ inline int NumThreadsToUse(int num_threads) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+// Calls `body` on all pieces of [0, n) of the given size.
 template <typename Body>
 void ParallelFor(int num_threads,
                  Eigen::Index n,

@@ -45,6 +45,7 @@
 
 namespace quatro {
 
+// Instruction sets, each with all of those before it.
 enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
 
 // What this machine and this build have.

@@ -19,6 +19,7 @@
 
 namespace quatro {
 
+// How strict (1) is, and how many triples are tried.
 struct TupleTestOptions {
   double scale = 0.95;  // s in (1), in (0, 1).
   int num_triples_per_match = 100;

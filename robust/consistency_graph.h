@@ -32,36 +32,46 @@ namespace quatro {
 // An undirected graph without loops.
 class Graph {
  public:
+  // Sixty-four edges.
   using Word = std::uint64_t;
   static constexpr int kWordBits = 64;
 
+  // Without edges.
   explicit Graph(int num_vertices)
       : num_vertices_(num_vertices),
         words_per_row_((num_vertices + kWordBits - 1) / kWordBits),
         rows_(static_cast<std::size_t>(num_vertices) *
               static_cast<std::size_t>(words_per_row_)) {}
 
+  // Of which vertices are numbered from 0.
   int num_vertices() const { return num_vertices_; }
 
+  // The edges of vertex i, a bit each.
   std::span<const Word> Row(int i) const {
     return {rows_.data() + RowBegin(i),
             static_cast<std::size_t>(words_per_row_)};
   }
+
+  // The same to be written; who writes keeps it symmetric.
   std::span<Word> MutableRow(int i) {
     return {rows_.data() + RowBegin(i),
             static_cast<std::size_t>(words_per_row_)};
   }
 
+  // Whether i and j are consistent.
   bool HasEdge(int i, int j) const {
     return (Row(i)[static_cast<std::size_t>(j / kWordBits)] >>
             (j % kWordBits)) &
            1u;
   }
+
+  // In both rows.
   void AddEdge(int i, int j) {
     SetBit(i, j);
     SetBit(j, i);
   }
 
+  // How many edges vertex i has.
   int Degree(int i) const {
     int degree = 0;
     for (const Word word : Row(i)) degree += std::popcount(word);
@@ -93,8 +103,10 @@ class Graph {
   std::vector<Word> rows_;
 };
 
+// What two matches must agree in.
 enum class ConsistencyTest { kLength, kPlanar, kPlanarAndHeight };
 
+// The test, and how far a pair may miss it.
 struct ConsistencyOptions {
   ConsistencyTest test = ConsistencyTest::kLength;
   double bound = 0.6;       // [m], both points of a pair may be off.

@@ -27,6 +27,7 @@
 
 namespace quatro {
 
+// From how near on a point is met, and where rivals are looked for.
 struct EvidenceOptions {
   double voxel_size = 0.3;  // Of the clouds [m].
 
@@ -53,6 +54,7 @@ struct FreeSpace {
   }
 };
 
+// What the clouds say for and against a pose.
 struct GeometricEvidence {
   double structure_overlap = 0.0;  // In [0, 1].
   double median_residual = 0.0;    // Of met points [voxel sizes]; 0 if none.

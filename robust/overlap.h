@@ -25,6 +25,7 @@
 
 namespace quatro {
 
+// A cloud as a surface seen from somewhere.
 struct SurfaceCloud {
   Eigen::Vector3d sensor;  // Where it stood, in the frame of the points [m].
   const KdTree& tree;      // Of the points [m].

@@ -30,6 +30,7 @@
 
 namespace quatro {
 
+// From where on a direction counts as held.
 struct StructureHoldOptions {
   double max_distance = 0.5;  // [m]
 
@@ -40,6 +41,7 @@ struct StructureHoldOptions {
   bool IsValid(std::string* error) const;
 };
 
+// What surfaces hold, direction by direction.
 struct StructureHold {
   // (1): rotations in m^2, the rest of 1.
   Matrix6 information = Matrix6::Zero();
