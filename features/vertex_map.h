@@ -39,7 +39,7 @@ struct SphericalImage {
   Eigen::Index size() const { return Eigen::Index{width} * height; }
 
   // Of one pixel in azimuth.
-  double PixelWidth() const { return 2.0 * M_PI / width; }        // [rad]
+  double PixelWidth() const { return 2.0 * M_PI / width; }  // [rad]
 
   // Of one pixel in elevation.
   double PixelHeight() const { return (top - bottom) / height; }  // [rad]
