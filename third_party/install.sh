@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs the packages that building, testing and plotting need, those alone
 # that are missing, with apt on Debian and Ubuntu. Never asks.
-#   third_party/install.sh [--check] [--ci] [--peers]
+#   third_party/install.sh [--check] [--ci] [--docs] [--peers]
 #     --check  install nothing; list what is missing, exit 1 if anything is
 #     --ci     with what only .ci/run needs
+#     --docs   with what only docs/build.sh needs
 #     --peers  with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
 # Exits 1 if something could not be installed. Elsewhere it lists what to
 # install and exits 0: cmake finds out whether it is there.
@@ -16,13 +17,16 @@ packages=(g++ cmake ninja-build make libeigen3-dev libceres-dev
           libbenchmark-dev python3-numpy python3-matplotlib
           pybind11-dev python3-dev python3-pytest python3-pip)
 
+docs=(doxygen mkdocs mkdocs-material libjs-mathjax)
+
 check=false
 for arg in "$@"; do
   case "$arg" in
     --check) check=true ;;
-    --ci) packages+=(clang-format) ;;
+    --ci) packages+=(clang-format "${docs[@]}") ;;
     --peers) packages+=(libopen3d-dev libpcl-dev) ;;
-    *) echo "usage: $0 [--check] [--ci] [--peers]" >&2; exit 2 ;;
+    --docs) packages+=("${docs[@]}") ;;
+    *) echo "usage: $0 [--check] [--ci] [--docs] [--peers]" >&2; exit 2 ;;
   esac
 done
 
