@@ -64,7 +64,7 @@ bool RunMethods::IsValid(std::string* error) const {
     return false;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!FindPairSolver(names[i], error)) return false;
+    if (!FindPairSolver(names[i], own, error)) return false;
     if (std::count(names.begin(), names.end(), names[i]) > 1) {
       *error = "method " + names[i] + " comes twice";
       return false;
@@ -117,8 +117,8 @@ std::vector<PairResult> RunTask(const PairTask& task,
       used.ins.target_attitude = task.ins->target;
       used.ins.attitude_std = task.ins->std;
     }
-    const RegistrationSummary summary =
-        FindPairSolver(name, &error)(*source, *target, matched, used);
+    const RegistrationSummary summary = FindPairSolver(
+        name, methods.own, &error)(*source, *target, matched, used);
     if (!summary.error.empty()) {
       *note = name + ": " + summary.error;
       result.status = "unreadable";
