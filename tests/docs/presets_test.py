@@ -61,7 +61,8 @@ def main():
         answer = answer_of(build, scratch / 'velodyne', name)
         used = answer['parameters']
         for preset, lengths in sensor_rows():
-            if preset == name and [float(length) for length in lengths] != [used[key] for key in LENGTHS]:
+            if preset == name and any(
+                    abs(float(length) - used[key]) > 1e-9 for length, key in zip(lengths, LENGTHS)):
                 errors.append(f'{name}: a sensor has {lengths} with it')
         num_voxels = max(answer['counts']['source_voxels'], answer['counts']['target_voxels'])
         if name == 'auto' and not 0.9 * 15000 <= num_voxels <= 1.1 * 15000:
