@@ -27,7 +27,7 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BLOCK = re.compile(r'^(?:<!-- (.*?) -->\n)?```(\w+)\n(.*?)^```$', re.M | re.S)
+BLOCK = re.compile(r'^(?:<!-- ([^\n]*?) -->\n)?```(\w+)\n(.*?)^```$', re.M | re.S)
 # Of others, whose flags are their own business.
 INSTALLED = {'cmake', 'pip', 'cp', 'cat'}
 
