@@ -89,8 +89,6 @@ namespace {
 
 using quatro::Fail;
 
-constexpr int kExitStopped = 3;
-
 constexpr char kUsage[] =
     "compares methods on scans of a data set, or on problems with known "
     "answers.\n"
@@ -292,8 +290,9 @@ int RunOnScans() {
     case quatro::RunEnd::kDone:
       break;
     case quatro::RunEnd::kStopped:
-      std::fprintf(stderr, "\nstopped; the same command goes on from here\n");
-      return kExitStopped;
+      quatro::EndProgressLine();
+      std::fprintf(stderr, "stopped; the same command goes on from here\n");
+      return quatro::kExitStopped;
     case quatro::RunEnd::kFailed:
       return Fail(error);
   }
@@ -400,9 +399,7 @@ bool IsOnScans() {
   return false;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "experiment_main", argc, argv)) {
     return *exit_code;
@@ -439,3 +436,7 @@ int main(int argc, char** argv) {
   }
   return quatro::kExitDone;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

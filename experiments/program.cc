@@ -8,6 +8,10 @@
 #include <quatro/version.h>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "experiments/progress_line.h"
 
 DECLARE_bool(help);
 DECLARE_bool(helpshort);
@@ -18,6 +22,48 @@ extern void (*gflags_exitfunc)(int);  // Called after a flag that is wrong.
 }
 
 namespace quatro {
+namespace {
+
+// Without a string, for which there may be no memory.
+void TellOutOfMemory() {
+  EndProgressLine();
+  std::fprintf(stderr,
+               "%s: out of memory; free some, raise the limit (ulimit -v), or "
+               "take fewer --threads or a smaller input\n",
+               gflags::ProgramInvocationShortName());
+}
+
+// Of an exception that nobody on its thread catches: of a library's own thread.
+[[noreturn]] void EndOrderly() {
+  try {
+    if (const auto exception = std::current_exception()) {
+      std::rethrow_exception(exception);
+    }
+  } catch (const std::bad_alloc&) {
+    TellOutOfMemory();
+    std::_Exit(kExitStopped);
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
+int RunProgram(int (*run)(int argc, char** argv), int argc, char** argv) {
+  std::set_terminate(EndOrderly);
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    TellOutOfMemory();
+  } catch (const std::exception& exception) {
+    EndProgressLine();
+    std::fprintf(stderr,
+                 "%s: %s; not expected here, please report it\n",
+                 gflags::ProgramInvocationShortName(),
+                 exception.what());
+  }
+  return kExitStopped;
+}
 
 std::optional<int> ParseFlags(const std::string& usage,
                               const std::string& main_file,
@@ -40,6 +86,7 @@ std::optional<int> ParseFlags(const std::string& usage,
 }
 
 int Fail(const std::string& error) {
+  EndProgressLine();
   std::fprintf(
       stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), error.c_str());
   return kExitBadInput;

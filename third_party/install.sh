@@ -14,7 +14,7 @@ set -euo pipefail
 packages=(g++ cmake ninja-build make libeigen3-dev libceres-dev
           libgoogle-glog-dev libgflags-dev libnanoflann-dev liblzf-dev
           nlohmann-json3-dev libembree-dev libgtest-dev libgmock-dev
-          libbenchmark-dev python3-numpy python3-matplotlib
+          libbenchmark-dev librapidcheck-dev python3-numpy python3-matplotlib
           pybind11-dev python3-dev python3-pytest python3-pip)
 
 docs=(doxygen mkdocs mkdocs-material libjs-mathjax)
@@ -23,7 +23,7 @@ check=false
 for arg in "$@"; do
   case "$arg" in
     --check) check=true ;;
-    --ci) packages+=(clang-format "${docs[@]}") ;;
+    --ci) packages+=(clang-format clang libclang-rt-dev "${docs[@]}") ;;
     --peers) packages+=(libopen3d-dev libpcl-dev) ;;
     --docs) packages+=("${docs[@]}") ;;
     *) echo "usage: $0 [--check] [--ci] [--docs] [--peers]" >&2; exit 2 ;;
@@ -36,7 +36,7 @@ install.sh: no apt-get here; with your own package manager install
   a C++20 compiler, CMake (3.22 or newer), Ninja or make, Eigen (3.4),
   Ceres Solver (2.1 or newer), glog, gflags, nanoflann, liblzf,
   nlohmann-json (3), Embree (3), GoogleTest with GoogleMock,
-  Google Benchmark for quatro_benchmark, Python 3 with NumPy and Matplotlib; for the module its headers, pybind11
+  Google Benchmark for quatro_benchmark, RapidCheck for some tests, Python 3 with NumPy and Matplotlib; for the module its headers, pybind11
   (2.10) and pip, for its tests pytest
 END
   exit 0
