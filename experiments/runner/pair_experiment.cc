@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "experiments/report/run_report.h"
 #include "experiments/runner/data_checksum.h"
 #include "experiments/runner/run_folder.h"
 #include "experiments/tables/run_tables.h"
@@ -111,7 +112,11 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
   if (!folder || !TakeManifest(folder->path(), experiment, error)) {
     return RunEnd::kFailed;
   }
-  return RunTasks(TakeShard(experiment.tasks, experiment.shard),
+  std::vector<PairTask> tasks = experiment.tasks;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    tasks[i].keeps_view = i < experiment.num_views;
+  }
+  return RunTasks(TakeShard(tasks, experiment.shard),
                   experiment.methods,
                   control,
                   folder.get(),
@@ -139,7 +144,9 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
       const std::vector<PairResult> pair(
           first, first + static_cast<std::ptrdiff_t>(methods.size()));
       if (whole->Has(pair.front().pair)) continue;
-      if (!whole->Append(pair, "", error)) return false;
+      std::string none;
+      const auto view = ReadWholeFile(ViewPath(path, pair.front().pair), &none);
+      if (!whole->Append(pair, "", view.value_or(""), error)) return false;
     }
   }
   std::vector<std::string> names;
@@ -148,6 +155,7 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
 }
 
 bool WriteTables(const std::string& output,
+                 const std::optional<std::string>& report_template,
                  std::string* summary,
                  std::string* error) {
   const auto results = ReadResultCsv(output + "/results.csv", error);
@@ -168,7 +176,8 @@ bool WriteTables(const std::string& output,
   for (const RunTable& table : tables) {
     if (table.name == "summary") *summary = FormatTable(table.table);
   }
-  return true;
+  return !report_template ||
+         WriteRunReport(output, *results, tables, *report_template, error);
 }
 
 }  // namespace quatro

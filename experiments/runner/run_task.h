@@ -6,7 +6,7 @@
 #ifndef QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
 #define QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
 
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,11 +36,25 @@ struct RunMethods {
   bool IsValid(std::string* error) const;
 };
 
-// A result each, in the order of the names. If a scan can't be read or can't be
-// used, all are unreadable and *note says why; it stays empty otherwise.
-std::vector<PairResult> RunTask(const PairTask& task,
-                                const RunMethods& methods,
-                                std::string* note);
+// What the method says of the pair, and its error if there is a truth.
+void FillResult(const RegistrationSummary& summary,
+                const std::optional<Rigid3>& true_target_from_source,
+                PairResult* result);
+
+struct TaskOutcome {
+  // Of each method, in the order of the names.
+  std::vector<PairResult> results;
+
+  // Why, if a scan can't be read or used: then all are unreadable. Empty
+  // otherwise.
+  std::string note;
+
+  // JSON of experiments/report/pair_view.h, of all methods; empty unless the
+  // task keeps it and the scans could be used.
+  std::string view;
+};
+
+TaskOutcome RunTask(const PairTask& task, const RunMethods& methods);
 
 }  // namespace quatro
 
