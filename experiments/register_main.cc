@@ -283,6 +283,8 @@ int main(int argc, char** argv) {
   if (report_template) {
     files.push_back({FLAGS_report,
                      quatro::FormatPairReport({PairName(),
+                                               FLAGS_source,
+                                               FLAGS_target,
                                                source->points,
                                                target->points,
                                                std::nullopt,

@@ -220,6 +220,15 @@ bool ViewOptions::IsValid(std::string* error) const {
   return false;
 }
 
+ViewOptions MakeViewOptions(std::size_t num_pairs) {
+  // In base64 a point of each cloud takes 16 bytes, a match of one method 19.
+  const auto n = static_cast<Eigen::Index>(std::max<std::size_t>(num_pairs, 1));
+  ViewOptions options;
+  options.max_points = std::clamp<Eigen::Index>(1'000'000 / n, 2'000, 6'000);
+  options.max_matches = std::clamp<Eigen::Index>(300'000 / n, 600, 2'000);
+  return options;
+}
+
 std::string FormatPairView(const ViewedPair& pair,
                            const std::vector<MethodAnswer>& answers,
                            const ViewOptions& options) {
@@ -244,6 +253,7 @@ std::string FormatPairView(const ViewedPair& pair,
   }
   const Json view = {
       {"pair", pair.name},
+      {"files", {pair.source_file, pair.target_file}},
       {"source", source.cloud},
       {"target", target.cloud},
       {"truth", Rows(pair.true_target_from_source)},

@@ -3,7 +3,7 @@
 // What the 3D view of a report shows of a pair, as JSON: both clouds thinned,
 // the matches, and of each method which matches outlived which stage,
 //
-//   pair
+//   pair, files      its name; the source's and the target's
 //   source, target   points: how many there are; origin [m], step [m], xyz:
 //   some
 //                    of them (quantized_points.h), in base64
@@ -30,6 +30,7 @@
 #define QUATRO_EXPERIMENTS_REPORT_PAIR_VIEW_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -53,8 +54,13 @@ struct ViewOptions {
   bool IsValid(std::string* error) const;
 };
 
+// For so many pairs on one page, 24 MB in all at most.
+ViewOptions MakeViewOptions(std::size_t num_pairs);
+
 struct ViewedPair {
   std::string name;
+  std::string source_file;
+  std::string target_file;
   Points source;  // [m], each in its own frame.
   Points target;
   std::optional<Rigid3> true_target_from_source;

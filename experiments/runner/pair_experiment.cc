@@ -116,8 +116,10 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     tasks[i].keeps_view = i < experiment.num_views;
   }
+  RunMethods methods = experiment.methods;
+  methods.view = MakeViewOptions(std::min(experiment.num_views, tasks.size()));
   return RunTasks(TakeShard(tasks, experiment.shard),
-                  experiment.methods,
+                  methods,
                   control,
                   folder.get(),
                   error);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "experiments/methods.h"
-#include "experiments/report/pair_view.h"
 #include "features/cloud_io.h"
 #include "robust/presets.h"
 
@@ -47,10 +46,12 @@ TaskOutcome AllUnreadable(const PairResult& blank,
 std::string ViewOf(const PairTask& task,
                    const MatchedClouds& matched,
                    const RegistrationOptions& options,
+                   ViewOptions view,
                    const std::vector<MethodAnswer>& answers) {
-  ViewOptions view;
   view.seed = options.seed;
   return FormatPairView({task.name,
+                         task.source,
+                         task.target,
                          matched.source.tree->points(),
                          matched.target.tree->points(),
                          task.true_target_from_source,
@@ -145,7 +146,7 @@ TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
     if (task.keeps_view) answers.push_back({name, std::move(summary)});
   }
   if (!answers.empty()) {
-    outcome.view = ViewOf(task, matched, options, answers);
+    outcome.view = ViewOf(task, matched, options, methods.view, answers);
   }
   return outcome;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/report/pair_view.h"
 #include "experiments/runner/pair_result.h"
 #include "experiments/runner/pair_task.h"
 #include "robust/ins.h"
@@ -26,6 +27,9 @@ struct RunMethods {
   // Take the options from each pair of clouds (robust/presets.h), but for
   // threads and seed, which stay.
   bool use_auto_options = false;
+
+  // Of what tasks keep for the report, but for the seed, which is that above.
+  ViewOptions view = {};
 
   // How a method that needs an INS uses the pair's. A pair without one is
   // insufficient for it.

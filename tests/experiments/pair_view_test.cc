@@ -228,6 +228,18 @@ TEST_F(PairViewTest, WithoutTruthNothingIsCalledRight) {
   EXPECT_TRUE(view["methods"][0]["stages"]["right"].is_null());
 }
 
+TEST(ViewOptions, ManyPairsFitOnAPage) {
+  for (const std::size_t n : {0u, 1u, 47u, 200u, 500u}) {
+    const ViewOptions options = MakeViewOptions(n);
+    std::string error;
+    EXPECT_TRUE(options.IsValid(&error)) << error;
+    EXPECT_LE(n * static_cast<std::size_t>(16 * options.max_points +
+                                           19 * options.max_matches),
+              24'000'000u);
+  }
+  EXPECT_GT(MakeViewOptions(47).max_points, MakeViewOptions(500).max_points);
+}
+
 TEST(ViewOptions, ErrorNamesTheField) {
   std::string error;
   EXPECT_TRUE(ViewOptions().IsValid(&error));

@@ -7,7 +7,7 @@ import {el} from './dom.js';
 import {bytes} from './numbers.js';
 import {PairPanel} from './pair_panel.js';
 import {pairRows, pairTable} from './pairs.js';
-import {runTable} from './run_tables.js';
+import {mainSummary, runTable} from './run_tables.js';
 import {followSystem, switchTheme} from './theme.js';
 
 const MAX_OPEN_FLAGS = 16;
@@ -35,12 +35,12 @@ function header(data) {
 function tables(data) {
   const table = (name) => data.tables.find((candidate) => candidate.name === name);
   const parts = [];
-  if (table('summary')) parts.push(section('Summary', runTable(table('summary')),
+  if (table('summary')) parts.push(section('Summary', mainSummary(table('summary')),
       el('p', {class: 'hint'}, 'Small figures: 95 % intervals, Wilson’s of shares, bootstrap of averages and medians.')));
   if (table('recall')) {
     parts.push(section('Recall', el('div', {class: 'pair-of-figures'}, recallCurves(table('recall'), data.limits))));
   }
-  const others = data.tables.filter(({name, rows}) => !['summary', 'recall', 'tilt'].includes(name) && rows.length > 0);
+  const others = data.tables.filter(({name, rows}) => !['recall', 'tilt'].includes(name) && rows.length > 0);
   if (others.length > 0) {
     parts.push(section('More tables', others.map((other) =>
         el('details', {}, el('summary', {}, other.caption), runTable(other)))));
@@ -63,7 +63,7 @@ function pairs(data) {
   const panel = new PairPanel((pair, method) => rowOf.get(JSON.stringify([pair, method])), open);
   const table = pairTable(rows, hasView, (row) => {
     open(row);
-    panel.element.scrollIntoView({block: 'nearest', behavior: 'smooth'});
+    panel.element.scrollIntoView({block: 'start', behavior: 'smooth'});
   });
 
   function open(row) {

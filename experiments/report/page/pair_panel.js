@@ -18,8 +18,8 @@ function matrixText(rows) {
   return rows.map((row) => row.map((value) => value.toFixed(4).padStart(11)).join('')).join('\n');
 }
 
-function facts(row, method) {
-  const list = [['verdict', row.status], ['why', method.reason]];
+function facts(row, view, method) {
+  const list = [['source', view.files[0]], ['target', view.files[1]], ['verdict', row.status], ['why', method.reason]];
   if (row.probability !== null) list.push(['probability of success', fixed(row.probability, 3)]);
   if (row.t_m !== null) list.push(['error', `${fixed(row.t_m, 3)} m, ${fixed(row.r_deg, 2)} deg`]);
   if (row.distance_m !== null) list.push(['true distance', `${fixed(row.distance_m, 2)} m`]);
@@ -69,12 +69,12 @@ export class PairPanel {
     const method = this.view.methods.find(({name}) => name === row.method);
     this.title.textContent = row.pair;
     this.methods.replaceChildren(...this.view.methods.map(({name}) =>
-        el('button', {'aria-pressed': name === row.method,
+        el('button', {'aria-pressed': String(name === row.method),
                       onclick: () => this.onopen(this.rowOf(row.pair, name))}, name)));
     this.methods.hidden = this.view.methods.length < 2;
     this.viewer.open(this.view, method);
     this.notes.replaceChildren(
-        facts(row, method),
+        facts(row, this.view, method),
         method.stages ? stageTable(method.stages) : '',
         method.pose ? el('details', {open: true}, el('summary', {}, 'target from source'),
                          el('pre', {}, matrixText(method.pose))) : '',

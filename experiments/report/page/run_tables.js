@@ -43,3 +43,18 @@ function withInterval(row, at) {
 export function runTable(table) {
   return sortableTable(columnsOf(table), table.rows).element;
 }
+
+// Of the table "summary" what most people look for: a row a method, of all
+// sets, and few of the columns.
+export function mainSummary(table) {
+  const set = table.columns.indexOf('set');
+  const hasAll = table.rows.some((row) => row[set] === 'all');
+  const isWanted = (name) => /^(method|pairs|answers|registered|wrong registered)$/.test(name) ||
+      /^success % |^successes \/ (t|r) median/.test(name);
+  const kept = table.columns.map((name, i) => i)
+      .filter((i) => isWanted(table.columns[i].replace(/ (low|high)$/, '')));
+  return runTable({
+    columns: kept.map((i) => table.columns[i]),
+    rows: table.rows.filter((row) => !hasAll || row[set] === 'all').map((row) => kept.map((i) => row[i])),
+  });
+}

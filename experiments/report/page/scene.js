@@ -9,6 +9,7 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import {color} from './dom.js';
 
+const FEW_POINTS = 8000;  // Drawn larger.
 const HEAD_ROOM = 0.2;  // For a source above the target, of its radius.
 
 // The middle 90 % of each axis: {center, radius}.
@@ -48,7 +49,7 @@ export class PairScene {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.draw());
-    const material = () => new PointsMaterial({size: 1.8, sizeAttenuation: false, vertexColors: true});
+    const material = () => new PointsMaterial({sizeAttenuation: false, vertexColors: true});
     this.source = new Points(new BufferGeometry(), material());
     this.target = new Points(new BufferGeometry(), material());
     this.lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial(
@@ -70,6 +71,7 @@ export class PairScene {
       object.geometry.dispose();
       object.geometry = new BufferGeometry();
       object.geometry.setAttribute('position', new BufferAttribute(cloud.xyz, 3));
+      object.material.size = cloud.xyz.length < 3 * FEW_POINTS ? 2.6 : 1.8;
     }
     this.recolor();
     this.look('aslant');
