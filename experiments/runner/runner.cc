@@ -70,12 +70,12 @@ RunEnd RunTasks(const std::vector<PairTask>& tasks,
                   }
                   if (end != RunEnd::kDone) return;
                 }
-                std::string note;
-                const std::vector<PairResult> results = RunTask(
-                    *missing[static_cast<std::size_t>(begin)], methods, &note);
+                const TaskOutcome outcome =
+                    RunTask(*missing[static_cast<std::size_t>(begin)], methods);
                 const std::lock_guard<std::mutex> lock(mutex);
                 if (end == RunEnd::kFailed) return;
-                if (!folder->Append(results, note, error)) {
+                if (!folder->Append(
+                        outcome.results, outcome.note, outcome.view, error)) {
                   end = RunEnd::kFailed;
                   return;
                 }
