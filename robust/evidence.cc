@@ -93,6 +93,7 @@ void AddFreeSpace(const std::vector<StructurePoint>& structure,
 std::optional<GeometricEvidence> MeasureLevel(const SurfaceCloud& source,
                                               const SurfaceCloud& target,
                                               const Rigid3& target_from_source,
+                                              const MutualContacts& contacts,
                                               const EvidenceOptions& options,
                                               int num_threads) {
   const Rigid3 level{RotationBetween(target.up, Eigen::Vector3d::UnitZ()),
@@ -103,6 +104,7 @@ std::optional<GeometricEvidence> MeasureLevel(const SurfaceCloud& source,
       source,
       {level * target.sensor, tree, normals, target.is_scan},
       level * target_from_source,
+      contacts,
       options,
       num_threads);
   if (!evidence) return std::nullopt;
@@ -137,20 +139,38 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
     const Rigid3& target_from_source,
     const EvidenceOptions& options,
     int num_threads) {
+  return MeasureGeometricEvidence(source,
+                                  target,
+                                  target_from_source,
+                                  FindMutualContacts(source,
+                                                     target,
+                                                     target_from_source,
+                                                     options.MaxDistance(),
+                                                     num_threads),
+                                  options,
+                                  num_threads);
+}
+
+std::optional<GeometricEvidence> MeasureGeometricEvidence(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
+    const EvidenceOptions& options,
+    int num_threads) {
   if (target.up != Eigen::Vector3d::UnitZ()) {
     return MeasureLevel(
-        source, target, target_from_source, options, num_threads);
+        source, target, target_from_source, contacts, options, num_threads);
   }
   if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
     return std::nullopt;
   }
   const Rigid3 source_from_target = Inverse(target_from_source);
-  const double max_distance =
-      options.max_distance_in_voxels * options.voxel_size;
-  const auto of_source = FindStructure(
-      source, target, target_from_source, max_distance, num_threads);
-  const auto of_target = FindStructure(
-      target, source, source_from_target, max_distance, num_threads);
+  const double max_distance = options.MaxDistance();
+  const auto of_source =
+      FindStructure(source, target, target_from_source, contacts.of_source);
+  const auto of_target =
+      FindStructure(target, source, source_from_target, contacts.of_target);
   const auto source_share = ShareMet(of_source);
   const auto target_share = ShareMet(of_target);
   if (!source_share || !target_share) return std::nullopt;
