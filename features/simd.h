@@ -36,7 +36,8 @@
 
 // A part of such a function. Inlined into each of its clones.
 #if defined(QUATRO_NO_SANITIZE)
-#define QUATRO_SIMD_INLINE inline __attribute__((always_inline)) QUATRO_NO_SANITIZE
+#define QUATRO_SIMD_INLINE \
+  inline __attribute__((always_inline)) QUATRO_NO_SANITIZE
 #else
 #define QUATRO_SIMD_INLINE inline __attribute__((always_inline))
 #endif

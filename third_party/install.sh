@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Installs the packages that building, testing and plotting need, those alone
 # that are missing, with apt on Debian and Ubuntu. Never asks.
-#   third_party/install.sh [--check] [--ci] [--peers]
-#     --check  install nothing; list what is missing, exit 1 if anything is
-#     --ci     with what only .ci/run needs
-#     --peers  with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
+#   third_party/install.sh [--check] [--ci] [--tidy] [--coverage] [--peers]
+#     --check     install nothing; list what is missing, exit 1 if anything is
+#     --ci        with what only .ci/run needs
+#     --tidy      with what only tests/tidy_test.sh needs
+#     --coverage  with what only tests/coverage.sh needs
+#     --peers     with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
 # Exits 1 if something could not be installed. Elsewhere it lists what to
 # install and exits 0: cmake finds out whether it is there.
 set -euo pipefail
@@ -21,8 +23,10 @@ for arg in "$@"; do
   case "$arg" in
     --check) check=true ;;
     --ci) packages+=(clang-format clang libclang-rt-dev) ;;
+    --tidy) packages+=(clang clang-tidy) ;;
+    --coverage) packages+=(gcovr) ;;
     --peers) packages+=(libopen3d-dev libpcl-dev) ;;
-    *) echo "usage: $0 [--check] [--ci] [--peers]" >&2; exit 2 ;;
+    *) echo "usage: $0 [--check] [--ci] [--tidy] [--coverage] [--peers]" >&2; exit 2 ;;
   esac
 done
 
