@@ -250,8 +250,8 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
     for (Eigen::Index c = begin; c < end; ++c) {
       const Cell& cell = cells->cells[static_cast<std::size_t>(c)];
       near.clear();
-      for (const std::uint64_t x : {0, 1, 2}) {
-        for (const std::uint64_t y : {0, 1, 2}) {
+      for (std::uint64_t x = 0; x < 3; ++x) {
+        for (std::uint64_t y = 0; y < 3; ++y) {
           const std::uint64_t corner = (std::uint64_t{1} << cells->x_shift) +
                                        (std::uint64_t{1} << cells->y_shift) + 1;
           const auto [first, last] =
