@@ -42,7 +42,7 @@ fi
 rm -f "$scratch/pages/api/doxygen.svg"
 
 # The guide, beside it: so that mkdocs checks the links between them.
-python3 docs/assemble.py "$scratch/pages"
+/usr/bin/python3 docs/assemble.py "$scratch/pages"
 mkdir -p "$scratch/pages/mathjax"
 cp -rL --parents "$mathjax"/{MathJax.js,config/TeX-AMS_CHTML-full.js,jax/output/CommonHTML/fonts/TeX} \
     "$mathjax"/{fonts/HTML-CSS/TeX/woff,extensions/MathZoom.js,extensions/MathMenu.js} "$scratch"
@@ -50,5 +50,5 @@ mv "$scratch$mathjax"/* "$scratch/pages/mathjax"
 sed "s#^docs_dir: .*#docs_dir: '$scratch/pages'#" docs/mkdocs.yml >"$scratch/mkdocs.yml"
 mkdocs build --quiet --strict --config-file "$scratch/mkdocs.yml" --site-dir "$output"
 rm -f "$output/sitemap.xml" "$output/sitemap.xml.gz"
-python3 docs/check_site.py "$output"
+/usr/bin/python3 docs/check_site.py "$output"
 echo "$output/index.html"

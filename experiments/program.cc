@@ -49,7 +49,9 @@ void TellOutOfMemory() {
 
 }  // namespace
 
-int RunProgram(int (*run)(int argc, char** argv), int argc, char** argv) {
+int RunProgram(const std::function<int(int argc, char** argv)>& run,
+               int argc,
+               char** argv) {
   std::set_terminate(EndOrderly);
   try {
     return run(argc, argv);

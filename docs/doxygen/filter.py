@@ -127,7 +127,10 @@ def convert(lines):
             in_file_comment = bool(comment)
             if comment:
                 spdx = comment.group(2).startswith(' SPDX')
-                yield '/// \\file' if i == 0 else '///' if spdx else '///' + escape(comment.group(2))
+                text = comment.group(2)
+                if text.endswith(',') and lines[i + 1] == '//':
+                    text = text[:-1] + ':'  # An equation follows; Doxygen would add a full stop.
+                yield '/// \\file' if i == 0 else '///' if spdx else '///' + escape(text)
                 continue
         if comment and scopes.holds_declarations():
             if len(comment.group(1)) == trailing_column:
