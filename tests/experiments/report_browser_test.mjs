@@ -6,11 +6,14 @@
 
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 
+import {matrixOf} from '../../experiments/report/page/motion.js';
+import {roleOf} from '../../experiments/report/page/match_stages.js';
+import {AGREEING, CONSISTENT, decodeView, drawnPose} from '../../experiments/report/page/view_data.js';
 import {Browser} from '../support/browser.mjs';
 
 const [bin, chromium] = process.argv.slice(2);
@@ -65,6 +68,34 @@ function writePairs() {
 function run(program, args, codes = [0]) {
   const {status, stderr} = spawnSync(join(bin, program), args, {encoding: 'utf8'});
   assert.ok(codes.includes(status), `${program}: exit code ${status}\n${stderr}`);
+}
+
+// Who outlives which stage; 102 of 255 is a weight of 0.4.
+function checkStages() {
+  const stages = {fate: [0, CONSISTENT, CONSISTENT | AGREEING, AGREEING], weight: [0, 102, 255, 0],
+                  counts: {consistent: 2}};
+  const roles = (stage) => stages.fate.map((_, i) => roleOf(stages, stage, i).role);
+  assert.deepEqual(roles(1), ['all', 'all', 'all', 'all']);
+  assert.deepEqual(roles(2), ['rejected', 'kept', 'kept', 'rejected']);
+  assert.deepEqual(roles(3), ['gone', 'weighted', 'weighted', 'gone']);
+  assert.deepEqual(roles(4), ['gone', 'rejected', 'kept', 'regained']);
+  assert.equal(roleOf(stages, 3, 1).weight, 0.4);
+}
+
+// The pose drawn takes the agreeing matches of the page's pair to each other.
+function checkPose(page) {
+  const json = readFileSync(page, 'utf8').match(/id="view-0">(.*?)<\/script>/s)[1];
+  const view = decodeView(JSON.parse(json));
+  const {pose, stages} = view.methods[0];
+  const farthest = (matrix) => Math.max(...stages.fate.map((fate, i) => {
+    if (!(fate & AGREEING)) return 0;
+    const [x, y, z] = view.matchedSource.slice(3 * i, 3 * i + 3);
+    const m = matrix.elements;  // Column by column.
+    return Math.max(...[0, 1, 2].map((axis) => Math.abs(
+        m[axis] * x + m[4 + axis] * y + m[8 + axis] * z + m[12 + axis] - view.matchedTarget[3 * i + axis])));
+  }));
+  assert.ok(farthest(matrixOf(drawnPose(view, pose), 0)) <= 0.11, 'beyond the noise bound');
+  assert.ok(farthest(matrixOf(drawnPose(view, null), 0)) > 1);
 }
 
 async function lookAtRun(browser) {
@@ -183,6 +214,8 @@ try {
                             '--methods=quatro,ransac1k', '--report_views=3', `--output=${join(folder, 'run')}`]);
   run('quatro_register', [`--source=${join(folder, 'source.bin')}`, `--target=${join(folder, 'target.bin')}`,
                           '--preset=indoor', `--report=${join(folder, 'pair.html')}`, `--json=${join(folder, 'a.json')}`]);
+  checkStages();
+  checkPose(join(folder, 'pair.html'));
   await look(join(folder, 'run/report.html'), lookAtRun, lookAtView);
   await look(join(folder, 'pair.html'), lookAtView);
 } finally {
