@@ -28,14 +28,14 @@ function uniform() {
   return state / 2147483647;
 }
 
-// Floor and walls of a room of 24 x 16 x 6 m.
+// Floor and walls of a room of 24 x 16 x 6 m, not about its middle.
 function room() {
   return Array.from({length: 3000}, (_, i) => {
     const point = [24 * uniform() - 12, 16 * uniform() - 8, 6 * uniform() - 3];
     if (i % 3 === 0) point[2] = -3;
     if (i % 3 === 1) point[0] = Math.sign(point[0]) * 12;
     if (i % 3 === 2) point[1] = Math.sign(point[1]) * 8;
-    return point;
+    return [point[0] + 2, point[1] + 1, point[2]];
   });
 }
 
@@ -44,7 +44,7 @@ function writeCloud(name, points) {
 }
 
 // Scans of the room from (0.8, -0.5, 0.1), turned by 0.4 rad, and from the
-// middle.
+// origin.
 function writePairs() {
   const target = room();
   const [c, s] = [Math.cos(0.4), Math.sin(0.4)];
@@ -87,7 +87,7 @@ function checkPose(page) {
   const json = readFileSync(page, 'utf8').match(/id="view-0">(.*?)<\/script>/s)[1];
   const view = decodeView(JSON.parse(json));
   const {pose, stages} = view.methods[0];
-  const farthest = (matrix) => Math.max(...stages.fate.map((fate, i) => {
+  const farthest = (matrix) => Math.max(...Array.from(stages.fate, (fate, i) => {
     if (!(fate & AGREEING)) return 0;
     const [x, y, z] = view.matchedSource.slice(3 * i, 3 * i + 3);
     const m = matrix.elements;  // Column by column.
