@@ -6,11 +6,14 @@
 
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 
+import {matrixOf} from '../../experiments/report/page/motion.js';
+import {roleOf} from '../../experiments/report/page/match_stages.js';
+import {AGREEING, CONSISTENT, decodeView, drawnPose} from '../../experiments/report/page/view_data.js';
 import {Browser} from '../support/browser.mjs';
 
 const [bin, chromium] = process.argv.slice(2);
@@ -25,14 +28,14 @@ function uniform() {
   return state / 2147483647;
 }
 
-// Floor and walls of a room of 24 x 16 x 6 m.
+// Floor and walls of a room of 24 x 16 x 6 m, not about its middle.
 function room() {
   return Array.from({length: 3000}, (_, i) => {
     const point = [24 * uniform() - 12, 16 * uniform() - 8, 6 * uniform() - 3];
     if (i % 3 === 0) point[2] = -3;
     if (i % 3 === 1) point[0] = Math.sign(point[0]) * 12;
     if (i % 3 === 2) point[1] = Math.sign(point[1]) * 8;
-    return point;
+    return [point[0] + 2, point[1] + 1, point[2]];
   });
 }
 
@@ -41,7 +44,7 @@ function writeCloud(name, points) {
 }
 
 // Scans of the room from (0.8, -0.5, 0.1), turned by 0.4 rad, and from the
-// middle.
+// origin.
 function writePairs() {
   const target = room();
   const [c, s] = [Math.cos(0.4), Math.sin(0.4)];
@@ -65,6 +68,34 @@ function writePairs() {
 function run(program, args, codes = [0]) {
   const {status, stderr} = spawnSync(join(bin, program), args, {encoding: 'utf8'});
   assert.ok(codes.includes(status), `${program}: exit code ${status}\n${stderr}`);
+}
+
+// Who outlives which stage; 102 of 255 is a weight of 0.4.
+function checkStages() {
+  const stages = {fate: [0, CONSISTENT, CONSISTENT | AGREEING, AGREEING], weight: [0, 102, 255, 0],
+                  counts: {consistent: 2}};
+  const roles = (stage) => stages.fate.map((_, i) => roleOf(stages, stage, i).role);
+  assert.deepEqual(roles(1), ['all', 'all', 'all', 'all']);
+  assert.deepEqual(roles(2), ['rejected', 'kept', 'kept', 'rejected']);
+  assert.deepEqual(roles(3), ['gone', 'weighted', 'weighted', 'gone']);
+  assert.deepEqual(roles(4), ['gone', 'rejected', 'kept', 'regained']);
+  assert.equal(roleOf(stages, 3, 1).weight, 0.4);
+}
+
+// The pose drawn takes the agreeing matches of the page's pair to each other.
+function checkPose(page) {
+  const json = readFileSync(page, 'utf8').match(/id="view-0">(.*?)<\/script>/s)[1];
+  const view = decodeView(JSON.parse(json));
+  const {pose, stages} = view.methods[0];
+  const farthest = (matrix) => Math.max(...Array.from(stages.fate, (fate, i) => {
+    if (!(fate & AGREEING)) return 0;
+    const [x, y, z] = view.matchedSource.slice(3 * i, 3 * i + 3);
+    const m = matrix.elements;  // Column by column.
+    return Math.max(...[0, 1, 2].map((axis) => Math.abs(
+        m[axis] * x + m[4 + axis] * y + m[8 + axis] * z + m[12 + axis] - view.matchedTarget[3 * i + axis])));
+  }));
+  assert.ok(farthest(matrixOf(drawnPose(view, pose), 0)) <= 0.11, 'beyond the noise bound');
+  assert.ok(farthest(matrixOf(drawnPose(view, null), 0)) > 1);
 }
 
 async function lookAtRun(browser) {
@@ -144,22 +175,22 @@ async function lookAtView(browser) {
   const {x, y, width, height} = await browser.box('.viewer canvas');
   const middle = {x: x + width / 2, y: y + height / 2};
   await browser.drag(middle, {x: middle.x + 150, y: middle.y + 40});
-  const turned = await still();
-  assert.ok(turned !== first, 'dragging does not turn the view');
+  assert.ok(await still() !== first, 'dragging does not turn the view');
 
   await browser.evaluate(`document.querySelector('.viewer canvas').focus()`);
-  const pictures = new Map([[turned, 'stage 1']]);
+  const pictures = new Map();
   const legends = [];
-  for (const stage of ['2', '3', '4']) {
+  for (const stage of ['1', '2', '3', '4']) {
     await browser.key(stage);
     const picture = await still();
     assert.ok(!pictures.has(picture), `stage ${stage} looks like ${pictures.get(picture)}`);
     pictures.set(picture, `stage ${stage}`);
     legends.push(await browser.evaluate(`document.querySelector('.viewer .legend').textContent`));
   }
-  assert.match(legends[0], /in the clique/);
-  assert.match(legends[1], /weight 0/);
-  assert.match(legends[2], /agree with the pose/);
+  assert.match(legends[0], /in all/);
+  assert.match(legends[1], /kept.*rejected.*in the clique/);
+  assert.match(legends[2], /weight 0/);
+  assert.match(legends[3], /kept.*agree with the pose/);
   await browser.key(' ');
   assert.ok(!pictures.has(await still()), 'after looks like before');
   assert.equal(await browser.evaluate(`document.querySelector('[data-pose=after]').ariaPressed`), 'true');
@@ -183,6 +214,8 @@ try {
                             '--methods=quatro,ransac1k', '--report_views=3', `--output=${join(folder, 'run')}`]);
   run('quatro_register', [`--source=${join(folder, 'source.bin')}`, `--target=${join(folder, 'target.bin')}`,
                           '--preset=indoor', `--report=${join(folder, 'pair.html')}`, `--json=${join(folder, 'a.json')}`]);
+  checkStages();
+  checkPose(join(folder, 'pair.html'));
   await look(join(folder, 'run/report.html'), lookAtRun, lookAtView);
   await look(join(folder, 'pair.html'), lookAtView);
 } finally {

@@ -11,7 +11,7 @@ import {join} from 'node:path';
 const FLAGS = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
                '--enable-unsafe-swiftshader', '--no-first-run', '--disable-background-networking',
                '--disable-component-update', '--disable-sync', '--disable-extensions', '--disable-dev-shm-usage',
-               '--window-size=1400,1000', '--remote-debugging-pipe'];
+               '--window-size=1100,800', '--remote-debugging-pipe'];
 const TIMEOUT_MS = 30000;
 
 export class Browser {
