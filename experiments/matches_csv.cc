@@ -107,6 +107,7 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
     }
   }
 
+  if (values.empty()) return MatchedPoints();
   const auto num_matches = static_cast<Eigen::Index>(values.size() / 6);
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> rows(
       values.data(), 6, num_matches);
