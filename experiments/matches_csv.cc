@@ -56,7 +56,7 @@ std::string Quoted(std::string_view text) {
   const bool is_long = text.size() > kMaxQuoted;
   std::string quoted(text.substr(0, kMaxQuoted));
   for (char& c : quoted) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
   return "'" + quoted + (is_long ? "...'" : "'");
 }

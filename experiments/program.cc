@@ -99,8 +99,13 @@ std::optional<int> ParseFlags(const std::string& usage,
 
 int Fail(const std::string& error) {
   EndProgressLine();
+  // Paths and flags may hold anything; a terminal would act upon it.
+  std::string line = error;
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
   std::fprintf(
-      stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), error.c_str());
+      stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), line.c_str());
   return kExitBadInput;
 }
 
