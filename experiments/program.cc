@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "experiments/progress_line.h"
 
@@ -33,18 +34,35 @@ void TellOutOfMemory() {
                gflags::ProgramInvocationShortName());
 }
 
-// Of an exception that nobody on its thread catches: of a library's own thread.
-[[noreturn]] void EndOrderly() {
+// A thread that can't be started says EAGAIN: there is no room for its stack.
+bool IsForMemory(const std::system_error& error) {
+  return error.code() == std::errc::resource_unavailable_try_again ||
+         error.code() == std::errc::not_enough_memory;
+}
+
+// Of the exception that is being handled.
+void TellException() {
   try {
-    if (const auto exception = std::current_exception()) {
-      std::rethrow_exception(exception);
-    }
+    throw;
   } catch (const std::bad_alloc&) {
-    TellOutOfMemory();
-    std::_Exit(kExitStopped);
-  } catch (...) {
+    return TellOutOfMemory();
+  } catch (const std::system_error& error) {
+    if (IsForMemory(error)) return TellOutOfMemory();
+    Fail(std::string(error.what()) + "; not expected here, please report it");
+  } catch (const std::exception& error) {
+    Fail(std::string(error.what()) + "; not expected here, please report it");
   }
-  std::abort();
+}
+
+// For an exception that nobody on its thread catches: a library's own thread.
+[[noreturn]] void EndOrderly() {
+  if (!std::current_exception()) std::abort();
+  try {
+    TellException();
+  } catch (...) {
+    std::abort();
+  }
+  std::_Exit(kExitStopped);
 }
 
 }  // namespace
@@ -55,14 +73,8 @@ int RunProgram(const std::function<int(int argc, char** argv)>& run,
   std::set_terminate(EndOrderly);
   try {
     return run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    TellOutOfMemory();
-  } catch (const std::exception& exception) {
-    EndProgressLine();
-    std::fprintf(stderr,
-                 "%s: %s; not expected here, please report it\n",
-                 gflags::ProgramInvocationShortName(),
-                 exception.what());
+  } catch (const std::exception&) {
+    TellException();
   }
   return kExitStopped;
 }
@@ -89,8 +101,13 @@ std::optional<int> ParseFlags(const std::string& usage,
 
 int Fail(const std::string& error) {
   EndProgressLine();
+  // Paths and flags may hold anything; a terminal would act upon it.
+  std::string line = error;
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
   std::fprintf(
-      stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), error.c_str());
+      stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), line.c_str());
   return kExitBadInput;
 }
 

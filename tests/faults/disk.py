@@ -6,13 +6,9 @@ import contextlib
 import os
 import subprocess
 
-from small_run import check, check_same, ended, finished_pairs
+from small_run import Skipped, check, check_same, ended, finished_pairs
 
 PAGE = 4096  # What the least file takes of a tmpfs.
-
-
-class CannotMount(Exception):
-    pass
 
 
 @contextlib.contextmanager
@@ -20,7 +16,7 @@ def small_disk(folder, num_bytes):
     os.makedirs(folder, exist_ok=True)
     if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={num_bytes}", "tmpfs",
                        folder], stderr=subprocess.DEVNULL, check=False).returncode:
-        raise CannotMount()
+        raise Skipped("cannot mount a small disk")
     try:
         yield folder
     finally:

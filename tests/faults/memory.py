@@ -30,7 +30,7 @@ def least_that_starts(program):
     return high
 
 
-def run_limits(command, output, remove, is_right, good_codes, step=1.05):
+def run_limits(command, output, remove, is_right, good_codes, step):
     """From the least limit on, each `step` times the last, until three in a row
     are enough. Each run either ends as without a limit or says in one line
     that there is not enough memory, and leaves nothing then. Returns the least

@@ -17,6 +17,10 @@ class Fault(Exception):
     """What should have held and did not."""
 
 
+class Skipped(Exception):
+    """What can't be tried here, and why."""
+
+
 def check(holds, message):
     if not holds:
         raise Fault(message)
