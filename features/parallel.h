@@ -63,6 +63,15 @@ void ParallelFor(int num_threads,
   if (failure) std::rethrow_exception(failure);
 }
 
+// Two things at once, if there are two threads.
+template <typename First, typename Second>
+void ParallelDo(int num_threads, const First& first, const Second& second) {
+  ParallelFor(num_threads, 2, 1, [&](Eigen::Index begin, Eigen::Index end) {
+    if (begin == 0) first();
+    if (end == 2) second();
+  });
+}
+
 }  // namespace quatro
 
 #endif  // QUATRO_FEATURES_PARALLEL_H_

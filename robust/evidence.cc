@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "features/parallel.h"
 #include "robust/free_space.h"
 #include "solvers/gravity.h"
 
@@ -195,8 +196,12 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
   evidence.weakest_direction.head<2>() =
       eigenvector[largest] < 0.0 ? -eigenvector : eigenvector;
 
-  const auto source_image = ImageOf(source, options.voxel_size);
-  const auto target_image = ImageOf(target, options.voxel_size);
+  std::optional<RangeImage> source_image;
+  std::optional<RangeImage> target_image;
+  ParallelDo(
+      num_threads,
+      [&] { source_image = ImageOf(source, options.voxel_size); },
+      [&] { target_image = ImageOf(target, options.voxel_size); });
   AddFreeSpace(of_source,
                source,
                target_image,
@@ -223,7 +228,8 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
                                  middle,
                                  evidence.weakest_direction,
                                  max_distance,
-                                 options.rival);
+                                 options.rival,
+                                 num_threads);
   const Rigid3& rival = evidence.rival.rival_target_from_source;
   AddFreeSpace(FindStructure(source, target, rival, max_distance, num_threads),
                source,

@@ -45,6 +45,14 @@ TEST(Random, SameSeedSameSequence) {
   }
 }
 
+TEST(Random, SkippingIsDrawing) {
+  Random drawn(3);
+  for (int i = 0; i < 7; ++i) drawn.Next();
+  Random skipped(3);
+  skipped.Skip(7);
+  EXPECT_EQ(skipped.Next(), drawn.Next());
+}
+
 TEST(Random, ConsecutiveSeedsShareNoDraw) {
   std::set<std::uint64_t> draws;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
