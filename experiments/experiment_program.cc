@@ -23,6 +23,7 @@
 #include "experiments/protocols/odometry_runs.h"
 #include "experiments/protocols/protocols.h"
 #include "experiments/protocols/tilt.h"
+#include "experiments/report/report_template.h"
 #include "experiments/runner/manifest.h"
 #include "experiments/runner/pair_experiment.h"
 #include "experiments/runner/stop_signal.h"
@@ -82,6 +83,11 @@ DEFINE_bool(merge, false, "On scans: put the parts in --output together");
 DEFINE_double(outliers, 0.9, "Of film: share of wrong differences");
 DEFINE_int32(seeds, 20, "On matched points: problems of each kind");
 DEFINE_int64(max_matches, 1000000, "Of sizes: the largest problem");
+DEFINE_int32(
+    report_views,
+    500,
+    "On scans: so many pairs, the first of the list, can be seen in 3D "
+    "in report.html");
 DEFINE_int32(threads,
              0,
              "0: one per core. On scans so many pairs at a time; timing always "
@@ -90,8 +96,6 @@ DEFINE_int32(threads,
 namespace {
 
 using quatro::Fail;
-
-constexpr int kExitStopped = 3;
 
 constexpr char kUsage[] =
     "compares methods on scans of a data set, or on problems with known "
@@ -102,8 +106,9 @@ constexpr char kUsage[] =
     "  quatro_experiment --protocol=degeneracy\n"
     "\n"
     "On scans, the folder gets results.csv, a line for each pair and method,\n"
-    "and tables. A run that was stopped, by Ctrl-C or otherwise, is gone on\n"
-    "with by the same command. Progress goes to standard error.\n"
+    "tables, and report.html, a page to look at. A run that was stopped, by\n"
+    "Ctrl-C or otherwise, is gone on with by the same command. Progress goes\n"
+    "to standard error.\n"
     "Exits with 0; 2 if a flag or a file is wrong; 3 if it was stopped.";
 
 std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
@@ -248,6 +253,7 @@ quatro::Manifest ManifestOfFlags() {
                           {"intervals", FLAGS_intervals},
                           {"max_pairs", std::to_string(FLAGS_max_pairs)},
                           {"shard", FLAGS_shard},
+                          {"report_views", std::to_string(FLAGS_report_views)},
                           {"threads", std::to_string(FLAGS_threads)}};
   return manifest;
 }
@@ -255,7 +261,11 @@ quatro::Manifest ManifestOfFlags() {
 // Once all pairs are done.
 int LeaveTables() {
   std::string error, summary;
-  if (!quatro::WriteTables(FLAGS_output, &summary, &error)) return Fail(error);
+  const auto report_template = quatro::ReadReportTemplate(&error);
+  if (!report_template) std::fprintf(stderr, "%s\n", error.c_str());
+  if (!quatro::WriteTables(FLAGS_output, report_template, &summary, &error)) {
+    return Fail(error);
+  }
   std::fputs(summary.c_str(), stdout);
   return quatro::kExitDone;
 }
@@ -281,6 +291,7 @@ int RunOnScans(const std::vector<quatro::OwnMethod>& own) {
   experiment.methods = *methods;
   experiment.output = FLAGS_output;
   experiment.shard = *shard;
+  experiment.num_views = static_cast<std::size_t>(FLAGS_report_views);
   experiment.manifest = ManifestOfFlags();
   if (FLAGS_merge) {
     if (!quatro::MergeShards(experiment, &error)) return Fail(error);
@@ -296,8 +307,9 @@ int RunOnScans(const std::vector<quatro::OwnMethod>& own) {
     case quatro::RunEnd::kDone:
       break;
     case quatro::RunEnd::kStopped:
-      std::fprintf(stderr, "\nstopped; the same command goes on from here\n");
-      return kExitStopped;
+      quatro::EndProgressLine();
+      std::fprintf(stderr, "stopped; the same command goes on from here\n");
+      return quatro::kExitStopped;
     case quatro::RunEnd::kFailed:
       return Fail(error);
   }
@@ -404,20 +416,14 @@ bool IsOnScans() {
   return false;
 }
 
-}  // namespace
-
-namespace quatro {
-
-int RunExperimentProgram(int argc,
-                         char** argv,
-                         const std::vector<OwnMethod>& own) {
+int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
   if (const auto exit_code =
-          ParseFlags(kUsage, "experiment_program", argc, argv)) {
+          quatro::ParseFlags(kUsage, "experiment_program", argc, argv)) {
     return *exit_code;
   }
   if (FLAGS_list_methods) {
-    std::fputs(DescribeMethods(own).c_str(), stdout);
-    return kExitDone;
+    std::fputs(quatro::DescribeMethods(own).c_str(), stdout);
+    return quatro::kExitDone;
   }
   std::string error;
   if (FLAGS_seeds < 1) return Fail("--seeds must be >= 1");
@@ -425,11 +431,12 @@ int RunExperimentProgram(int argc,
   if (!(FLAGS_outliers >= 0.0 && FLAGS_outliers < 1.0)) {
     return Fail("--outliers must be in [0, 1)");
   }
+  if (FLAGS_report_views < 0) return Fail("--report_views must be >= 0");
   if (FLAGS_threads < 0) return Fail("--threads must be >= 0");
   if (IsOnScans()) return RunOnScans(own);
   if (FLAGS_protocol == "odometry") return RunOdometryProtocol();
   if (FLAGS_protocol == "tilt") return RunTiltProtocol();
-  if (!FLAGS_output.empty() && !CanWrite(FLAGS_output, &error)) {
+  if (!FLAGS_output.empty() && !quatro::CanWrite(FLAGS_output, &error)) {
     return Fail(error);
   }
   const auto table = RunSynthetic(FLAGS_protocol);
@@ -439,12 +446,26 @@ int RunExperimentProgram(int argc,
         ", must be loop, interval, yaw, timing, pairs, odometry, tilt, tims, "
         "degeneracy, quasi_inliers, sizes, slopes, surrogates or film");
   }
-  std::fputs(FormatTable(*table).c_str(), stdout);
+  std::fputs(quatro::FormatTable(*table).c_str(), stdout);
   if (!FLAGS_output.empty() &&
-      !WriteOutputs({{FLAGS_output, FormatCsv(*table)}}, &error)) {
+      !quatro::WriteOutputs({{FLAGS_output, quatro::FormatCsv(*table)}},
+                            &error)) {
     return Fail(error);
   }
-  return kExitDone;
+  return quatro::kExitDone;
+}
+
+}  // namespace
+
+namespace quatro {
+
+int RunExperimentProgram(int argc,
+                         char** argv,
+                         const std::vector<OwnMethod>& own) {
+  return RunProgram(
+      [&own](int count, char** values) { return Run(count, values, own); },
+      argc,
+      argv);
 }
 
 }  // namespace quatro

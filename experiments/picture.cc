@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "experiments/shared_file.h"
 #include "features/file.h"
 #include "features/voxel_grid.h"
 
@@ -26,22 +27,10 @@ namespace fs = std::filesystem;
 constexpr double kDrawnVoxel = 0.2;      // [m]
 constexpr double kOriginStep = 10000.0;  // [m]
 
-// The scripts stand beside the sources; an installed program has them in share.
-fs::path FindScript(const std::string& name) {
-  std::error_code ignored;
-  const fs::path bin =
-      fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& folder :
-       {bin / "../share/quatro", bin / "../../experiments"}) {
-    if (fs::exists(folder / name, ignored)) return folder / name;
-  }
-  return fs::path(QUATRO_SCRIPTS) / name;
-}
-
 // Runs a script with a python that has matplotlib. Its standard output goes to
 // stderr: ours is for the JSON.
 bool RunPython(const std::vector<std::string>& args, std::string* error) {
-  std::vector<std::string> command = {FindScript("with_python.sh").string(),
+  std::vector<std::string> command = {FindSharedFile("with_python.sh").string(),
                                       "numpy,matplotlib"};
   command.insert(command.end(), args.begin(), args.end());
   std::vector<char*> argv;
@@ -82,7 +71,7 @@ nlohmann::json Thinned(const Points& points) {
 }  // namespace
 
 bool CanDrawPictures(std::string* error) {
-  return RunPython({FindScript("draw_registration.py").string(), "--check"},
+  return RunPython({FindSharedFile("draw_registration.py").string(), "--check"},
                    error);
 }
 
@@ -120,7 +109,7 @@ std::optional<std::string> DrawRegistration(const RegistrationPicture& picture,
   const std::string picture_path = folder + "/picture.png";
   std::optional<std::string> bytes;
   if (WriteFileAtomically(data_path, data.dump(), error) &&
-      RunPython({FindScript("draw_registration.py").string(),
+      RunPython({FindSharedFile("draw_registration.py").string(),
                  data_path,
                  picture_path},
                 error)) {

@@ -4,6 +4,7 @@
 #include <gflags/gflags.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,9 @@
 #include "experiments/outputs.h"
 #include "experiments/picture.h"
 #include "experiments/program.h"
+#include "experiments/report/pair_report.h"
+#include "experiments/report/report_template.h"
+#include "experiments/runner/manifest.h"
 #include "features/cloud_io.h"
 #include "robust/presets.h"
 #include "robust/registration.h"
@@ -69,6 +73,10 @@ DEFINE_bool(explain,
             "Print what came of each stage in plain words, in place of the "
             "JSON on standard output");
 DEFINE_string(picture, "", "PNG file for both clouds before and after");
+DEFINE_string(report,
+              "",
+              "HTML file for a page to look at: both clouds in 3D, and what "
+              "became of the matches stage by stage");
 DEFINE_string(correspondences_out,
               "",
               "CSV file for the matches, as quatro_solve reads them");
@@ -82,6 +90,24 @@ std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
                                 FLAGS_ins_std_deg,
                                 FLAGS_gravity},
                                error);
+}
+
+// The report's header: what the answer depends on.
+quatro::Manifest ManifestOf(const quatro::Json& report) {
+  quatro::Manifest manifest = quatro::BeginManifest();
+  manifest.seed = FLAGS_seed;
+  manifest.flags["method"] = FLAGS_method;
+  for (const auto& [name, value] : report["parameters"].items()) {
+    manifest.flags[name] =
+        value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  return manifest;
+}
+
+// "a.bin onto b.bin"
+std::string PairName() {
+  return std::filesystem::path(FLAGS_source).filename().string() + " onto " +
+         std::filesystem::path(FLAGS_target).filename().string();
 }
 
 constexpr char kUsage[] =
@@ -153,9 +179,7 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   return options;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   using quatro::Fail;
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "register_main", argc, argv)) {
@@ -170,13 +194,18 @@ int main(int argc, char** argv) {
   if (FLAGS_target.empty()) return Fail("--target is empty, must name a cloud");
   // What can be found wrong at once is found before the work is done.
   if (!quatro::CanWriteAll(
-          {FLAGS_json, FLAGS_picture, FLAGS_correspondences_out},
+          {FLAGS_json, FLAGS_picture, FLAGS_report, FLAGS_correspondences_out},
           {FLAGS_source, FLAGS_target},
           &error)) {
     return Fail(error);
   }
   if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
     return Fail(error);
+  }
+  std::optional<std::string> report_template;
+  if (!FLAGS_report.empty()) {
+    report_template = quatro::ReadReportTemplate(&error);
+    if (!report_template) return Fail("--report: " + error);
   }
   const auto ins = InsFromFlags(&error);
   if (!ins) return Fail(error);
@@ -249,6 +278,20 @@ int main(int argc, char** argv) {
     if (!picture) return Fail(error);
     files.push_back({FLAGS_picture, *picture});
   }
+  if (report_template) {
+    files.push_back({FLAGS_report,
+                     quatro::FormatPairReport({PairName(),
+                                               FLAGS_source,
+                                               FLAGS_target,
+                                               source->points,
+                                               target->points,
+                                               std::nullopt,
+                                               options->quatro.noise_bound},
+                                              options->front_end.voxel_size,
+                                              {FLAGS_method, summary},
+                                              ManifestOf(report),
+                                              *report_template)});
+  }
   if (!FLAGS_explain || !FLAGS_json.empty()) {
     files.push_back({FLAGS_json, report.dump(2) + "\n"});
   }
@@ -257,3 +300,7 @@ int main(int argc, char** argv) {
   return summary.verdict.IsRegistered() ? quatro::kExitDone
                                         : quatro::kExitNotVouchedFor;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

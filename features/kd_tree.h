@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "features/types.h"
@@ -39,6 +40,11 @@ class KdTree {
 
   // The `k` nearest, nearest first; fewer if the tree holds fewer.
   std::vector<Neighbor> Nearest(const Eigen::Vector3d& query, int k) const;
+
+  // The nearest no further than `radius` [m]. Faster than Nearest() where there
+  // is none.
+  std::optional<Neighbor> NearestWithin(const Eigen::Vector3d& query,
+                                        double radius) const;
 
  private:
   struct Index;

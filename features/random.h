@@ -30,6 +30,9 @@ class Random {
   // The next 64 bits.
   std::uint64_t Next() { return Mix(state_++); }
 
+  // As if so many had been drawn.
+  void Skip(std::uint64_t num_draws) { state_ += num_draws; }
+
   // Uniform in [0, n), n >= 1. The bias is below n / 2^64.
   std::uint64_t Below(std::uint64_t n) {
     __extension__ using Wide = unsigned __int128;

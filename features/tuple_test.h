@@ -31,6 +31,10 @@ struct TupleTestOptions {
 
   std::uint64_t seed = 0;
 
+  // 0: one per core. The answer is the same for any number; where triples are
+  // counted, one does all.
+  int num_threads = 1;
+
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "features/types.h"
+#include "features/zeroed_allocator.h"
 
 namespace quatro {
 
@@ -72,11 +73,7 @@ class Graph {
   }
 
   // How many edges vertex i has.
-  int Degree(int i) const {
-    int degree = 0;
-    for (const Word word : Row(i)) degree += std::popcount(word);
-    return degree;
-  }
+  int Degree(int i) const;
 
   // Calls visit(j) for each neighbour j of i, in ascending order.
   template <typename Visit>
@@ -85,6 +82,20 @@ class Graph {
     for (Word word : Row(i)) {
       for (; word != 0; word &= word - 1) visit(base + std::countr_zero(word));
       base += kWordBits;
+    }
+  }
+
+  // The same for those whose bit is set in `among`, as long as a row.
+  template <typename Visit>
+  void ForEachNeighborAmong(int i,
+                            std::span<const Word> among,
+                            const Visit& visit) const {
+    const auto row = Row(i);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const int base = static_cast<int>(k) * kWordBits;
+      for (Word word = row[k] & among[k]; word != 0; word &= word - 1) {
+        visit(base + std::countr_zero(word));
+      }
     }
   }
 
@@ -100,7 +111,7 @@ class Graph {
 
   int num_vertices_;
   int words_per_row_;
-  std::vector<Word> rows_;
+  std::vector<Word, ZeroedAllocator<Word>> rows_;
 };
 
 // What two matches must agree in.

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "features/random.h"
 
@@ -84,6 +85,23 @@ std::vector<Eigen::Index> InputColumns(
   }
   std::sort(columns.begin(), columns.end());
   return columns;
+}
+
+std::vector<double> InputValues(const DistinctMatches& matches,
+                                const std::vector<Eigen::Index>& selected,
+                                const std::vector<double>& values) {
+  CHECK_EQ(selected.size(), values.size());
+  std::vector<std::pair<Eigen::Index, double>> of_columns;
+  for (std::size_t k = 0; k < selected.size(); ++k) {
+    for (const Eigen::Index column :
+         matches.columns[static_cast<std::size_t>(selected[k])]) {
+      of_columns.emplace_back(column, values[k]);
+    }
+  }
+  std::sort(of_columns.begin(), of_columns.end());
+  std::vector<double> in_order;
+  for (const auto& of_column : of_columns) in_order.push_back(of_column.second);
+  return in_order;
 }
 
 Points Columns(const PointsRef& points,

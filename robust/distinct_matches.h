@@ -36,6 +36,11 @@ DistinctMatches FindDistinctMatches(const PointsRef& source,
 std::vector<Eigen::Index> InputColumns(
     const DistinctMatches& matches, const std::vector<Eigen::Index>& selected);
 
+// The values of the given distinct matches, in the order of InputColumns().
+std::vector<double> InputValues(const DistinctMatches& matches,
+                                const std::vector<Eigen::Index>& selected,
+                                const std::vector<double>& values);
+
 // The given columns of `points`, in that order.
 Points Columns(const PointsRef& points,
                const std::vector<Eigen::Index>& columns);

@@ -21,6 +21,7 @@
 #include <optional>
 #include <string>
 
+#include "robust/contact.h"
 #include "robust/overlap.h"
 #include "robust/rival_pose.h"
 #include "solvers/rigid3.h"
@@ -35,6 +36,8 @@ struct EvidenceOptions {
   double max_distance_in_voxels = 5.0 / 3.0;
 
   RivalPoseOptions rival;
+
+  double MaxDistance() const { return max_distance_in_voxels * voxel_size; }
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -77,6 +80,15 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
     const SurfaceCloud& source,
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
+    const EvidenceOptions& options,
+    int num_threads);
+
+// The same with the contacts at the pose at hand, within MaxDistance().
+std::optional<GeometricEvidence> MeasureGeometricEvidence(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
     const EvidenceOptions& options,
     int num_threads);
 

@@ -78,6 +78,11 @@ struct PoseSummary {
   // kept or left out together, and count once.
   std::vector<Eigen::Index> consistent;           // After pruning.
   std::vector<Eigen::Index> translation_inliers;  // Within the noise bound.
+
+  // Of each of `consistent`, the largest weight in [0, 1] that the rotation
+  // gave to a difference it is part of; empty if the estimator weighs none.
+  std::vector<double> match_weights;
+
   Eigen::Index num_distinct = 0;
   Eigen::Index num_consistent = 0;
   Eigen::Index num_tims = 0;

@@ -112,6 +112,18 @@ std::optional<double> FindYaw(const QuasiSo3& rotation,
   return yaw;
 }
 
+// Of each difference: that of GNC, or for the exact yaw whether it is an
+// inlier. Empty without an answer.
+Eigen::VectorXd TimWeights(const QuasiSo3& rotation,
+                           const QuatroSummary& summary,
+                           const std::optional<double>& yaw) {
+  if (!summary.is_yaw_exact) return summary.gnc.weights;
+  if (!yaw) return {};
+  YawEstimate estimate;
+  estimate.target_from_source = *yaw;
+  return (rotation.SquaredResiduals(estimate).array() <= 1.0).cast<double>();
+}
+
 std::string NoteMove(const Rigid3& before, const Rigid3& after) {
   const double shift = (after.translation - before.translation).norm();
   if (shift == 0.0) return "no other translation explains more";
@@ -178,11 +190,16 @@ QuatroSummary SolveQuatro(const PointsRef& source,
     summary.message = message.str();
     return summary;
   }
-  const auto yaw = FindYaw({ComputeTims(p, pairs),
-                            ComputeTims(q, pairs),
-                            options.tim_bound_factor * options.noise_bound},
-                           options,
-                           &summary);
+  const QuasiSo3 rotation_problem{
+      ComputeTims(p, pairs),
+      ComputeTims(q, pairs),
+      options.tim_bound_factor * options.noise_bound};
+  const auto yaw = FindYaw(rotation_problem, options, &summary);
+  const Eigen::VectorXd weights = TimWeights(rotation_problem, summary, yaw);
+  if (weights.size() > 0) {
+    summary.match_weights =
+        InputValues(matches, consistent, WeighPoints(pairs, weights, p.cols()));
+  }
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
   if (options.yaw_solver == YawSolver::kGnc) {
     summary.notes.push_back(

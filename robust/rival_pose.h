@@ -61,7 +61,8 @@ RivalPose FindRivalPose(const SurfaceCloud& source,
                         const Eigen::Vector3d& middle,
                         const Eigen::Vector3d& direction,
                         double max_distance,
-                        const RivalPoseOptions& options);
+                        const RivalPoseOptions& options,
+                        int num_threads);
 
 }  // namespace quatro
 

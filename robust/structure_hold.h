@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "robust/contact.h"
 #include "robust/overlap.h"
 #include "solvers/held_directions.h"
 #include "solvers/rigid3.h"
@@ -68,6 +69,14 @@ std::optional<StructureHold> MeasureStructureHold(
     const Rigid3& target_from_source,
     const StructureHoldOptions& options,
     int num_threads);
+
+// The same with the contacts at the pose at hand, within options.max_distance.
+std::optional<StructureHold> MeasureStructureHold(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
+    const StructureHoldOptions& options);
 
 }  // namespace quatro
 

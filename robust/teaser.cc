@@ -128,6 +128,10 @@ TeaserSummary SolveTeaser(const PointsRef& source,
     summary.gnc =
         SolveGnc<TruncatedLeastSquares>(rotation_problem, options.gnc);
   }
+  if (summary.gnc.weights.size() > 0) {
+    summary.match_weights = InputValues(
+        matches, consistent, WeighPoints(pairs, summary.gnc.weights, p.cols()));
+  }
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
   summary.notes.push_back(
       {"rotation",

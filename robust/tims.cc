@@ -3,6 +3,8 @@
 
 #include "robust/tims.h"
 
+#include <algorithm>
+
 #include "features/random.h"
 
 namespace quatro {
@@ -44,6 +46,19 @@ Points ComputeTims(const PointsRef& points, const std::vector<TimPair>& pairs) {
   for (const auto& [a, b] : pairs)
     tims.col(k++) = points.col(a) - points.col(b);
   return tims;
+}
+
+std::vector<double> WeighPoints(const std::vector<TimPair>& pairs,
+                                const Eigen::VectorXd& weights,
+                                Eigen::Index num_points) {
+  std::vector<double> of_points(static_cast<std::size_t>(num_points));
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    for (const Eigen::Index i : {pairs[k].first, pairs[k].second}) {
+      double& weight = of_points[static_cast<std::size_t>(i)];
+      weight = std::max(weight, weights(static_cast<Eigen::Index>(k)));
+    }
+  }
+  return of_points;
 }
 
 }  // namespace quatro

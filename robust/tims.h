@@ -40,6 +40,12 @@ std::vector<TimPair> MakeTimPairs(Eigen::Index num_points,
 // One difference per pair and column.
 Points ComputeTims(const PointsRef& points, const std::vector<TimPair>& pairs);
 
+// Of each of `num_points`, the largest weight of the pairs that it is part of;
+// 0 of none. One weight a pair, in [0, 1].
+std::vector<double> WeighPoints(const std::vector<TimPair>& pairs,
+                                const Eigen::VectorXd& weights,
+                                Eigen::Index num_points);
+
 }  // namespace quatro
 
 #endif  // QUATRO_ROBUST_TIMS_H_

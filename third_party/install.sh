@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
 # Installs the packages that building, testing and plotting need, those alone
-# that are missing, with apt on Debian and Ubuntu. Never asks.
-#   third_party/install.sh [--check] [--ci] [--docs] [--peers]
-#     --check  install nothing; list what is missing, exit 1 if anything is
-#     --ci     with what only .ci/run needs
-#     --docs   with what only docs/build.sh needs
-#     --peers  with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
+# that are missing, with apt on Debian and Ubuntu, and with npm those that HTML
+# reports are bundled with. Never asks.
+#   third_party/install.sh [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers]
+#     --check     install nothing; list what is missing, exit 1 if anything is
+#     --ci        with what only .ci/run needs
+#     --docs      with what only docs/build.sh needs
+#     --tidy      with what only tests/tidy_test.sh needs
+#     --coverage  with what only tests/coverage.sh needs
+#     --peers     with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
 # Exits 1 if something could not be installed. Elsewhere it lists what to
 # install and exits 0: cmake finds out whether it is there.
 set -euo pipefail
@@ -14,8 +17,10 @@ set -euo pipefail
 packages=(g++ cmake ninja-build make libeigen3-dev libceres-dev
           libgoogle-glog-dev libgflags-dev libnanoflann-dev liblzf-dev
           nlohmann-json3-dev libembree-dev libgtest-dev libgmock-dev
-          libbenchmark-dev python3-numpy python3-matplotlib
+          libbenchmark-dev librapidcheck-dev python3-numpy python3-matplotlib
           pybind11-dev python3-dev python3-pytest python3-pip)
+# Those of others exclude Debian's.
+command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
 
 docs=(doxygen mkdocs mkdocs-material libjs-mathjax)
 
@@ -23,12 +28,30 @@ check=false
 for arg in "$@"; do
   case "$arg" in
     --check) check=true ;;
-    --ci) packages+=(clang-format "${docs[@]}") ;;
+    --ci) packages+=(clang-format clang libclang-rt-dev chromium "${docs[@]}") ;;
     --peers) packages+=(libopen3d-dev libpcl-dev) ;;
     --docs) packages+=("${docs[@]}") ;;
-    *) echo "usage: $0 [--check] [--ci] [--docs] [--peers]" >&2; exit 2 ;;
+    --tidy) packages+=(clang clang-tidy) ;;
+    --coverage) packages+=(gcovr) ;;
+    *) echo "usage: $0 [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers]" >&2; exit 2 ;;
   esac
 done
+
+# Into experiments/report/node_modules, as package-lock.json has them. A build
+# without them has no HTML reports, and all else.
+report="$(dirname "${BASH_SOURCE[0]}")/../experiments/report"
+has_report_packages() {
+  cmp -s "$report/package-lock.json" "$report/node_modules/.quatro-lock"
+}
+install_report_packages() {
+  has_report_packages && return
+  if command -v npm >/dev/null &&
+      npm ci --prefix "$report" --ignore-scripts --no-audit --no-fund --loglevel=error </dev/null >&2; then
+    cp "$report/package-lock.json" "$report/node_modules/.quatro-lock"
+  else
+    echo "install.sh: no HTML reports: npm could not install three and esbuild" >&2
+  fi
+}
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   cat >&2 <<'END'
@@ -36,9 +59,11 @@ install.sh: no apt-get here; with your own package manager install
   a C++20 compiler, CMake (3.22 or newer), Ninja or make, Eigen (3.4),
   Ceres Solver (2.1 or newer), glog, gflags, nanoflann, liblzf,
   nlohmann-json (3), Embree (3), GoogleTest with GoogleMock,
-  Google Benchmark for quatro_benchmark, Python 3 with NumPy and Matplotlib; for the module its headers, pybind11
-  (2.10) and pip, for its tests pytest
+  Google Benchmark for quatro_benchmark, RapidCheck for some tests,
+  Python 3 with NumPy and Matplotlib; for the module its headers, pybind11
+  (2.10) and pip, for its tests pytest; for HTML reports Node.js (18) and npm
 END
+  install_report_packages
   exit 0
 fi
 
@@ -52,12 +77,17 @@ find_missing() {
 }
 
 find_missing
-if ((${#missing[@]} == 0)); then
-  exit 0
-fi
 if $check; then
+  has_report_packages || missing+=("npm:three and npm:esbuild")
+  if ((${#missing[@]} == 0)); then
+    exit 0
+  fi
   printf '%s\n' "${missing[@]}"
   exit 1
+fi
+if ((${#missing[@]} == 0)); then
+  install_report_packages
+  exit 0
 fi
 
 as_root=()
@@ -74,6 +104,7 @@ if "${as_root[@]}" true 2>/dev/null; then
   apt_get install -y --no-install-recommends "${missing[@]}" || true
 fi
 
+install_report_packages
 find_missing
 if ((${#missing[@]} != 0)); then
   echo "install.sh: could not install; as root: apt-get install ${missing[*]}" >&2

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "experiments/report/run_report.h"
 #include "experiments/runner/data_checksum.h"
 #include "experiments/runner/run_folder.h"
 #include "experiments/tables/run_tables.h"
@@ -111,8 +112,14 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
   if (!folder || !TakeManifest(folder->path(), experiment, error)) {
     return RunEnd::kFailed;
   }
-  return RunTasks(TakeShard(experiment.tasks, experiment.shard),
-                  experiment.methods,
+  std::vector<PairTask> tasks = experiment.tasks;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    tasks[i].keeps_view = i < experiment.num_views;
+  }
+  RunMethods methods = experiment.methods;
+  methods.view = MakeViewOptions(std::min(experiment.num_views, tasks.size()));
+  return RunTasks(TakeShard(tasks, experiment.shard),
+                  methods,
                   control,
                   folder.get(),
                   error);
@@ -139,7 +146,9 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
       const std::vector<PairResult> pair(
           first, first + static_cast<std::ptrdiff_t>(methods.size()));
       if (whole->Has(pair.front().pair)) continue;
-      if (!whole->Append(pair, "", error)) return false;
+      std::string none;
+      const auto view = ReadWholeFile(ViewPath(path, pair.front().pair), &none);
+      if (!whole->Append(pair, "", view.value_or(""), error)) return false;
     }
   }
   std::vector<std::string> names;
@@ -148,6 +157,7 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
 }
 
 bool WriteTables(const std::string& output,
+                 const std::optional<std::string>& report_template,
                  std::string* summary,
                  std::string* error) {
   const auto results = ReadResultCsv(output + "/results.csv", error);
@@ -168,7 +178,8 @@ bool WriteTables(const std::string& output,
   for (const RunTable& table : tables) {
     if (table.name == "summary") *summary = FormatTable(table.table);
   }
-  return true;
+  return !report_template ||
+         WriteRunReport(output, *results, tables, *report_template, error);
 }
 
 }  // namespace quatro

@@ -6,11 +6,14 @@
 //   OUTPUT/shard_2_of_5/    that of a part, for --merge to put together
 //
 // each with manifest.json, what makes its results. Where all pairs are done,
-// OUTPUT gets tables/, of experiments/tables/run_tables.h, too.
+// OUTPUT gets tables/, of experiments/tables/run_tables.h, and report.html, of
+// experiments/report/run_report.h, too.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
 #define QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,9 @@ struct PairExperiment {
   RunMethods methods;
   std::string output;
   Shard shard;
+
+  // So many tasks, the first of the list, keep a 3D view.
+  std::size_t num_views = 0;
 
   // Without the data; its tasks are put in as the flag "tasks".
   Manifest manifest;
@@ -45,9 +51,10 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
 // that is missing; what is there is kept.
 bool MergeShards(const PairExperiment& experiment, std::string* error);
 
-// From results.csv of the whole, tables/NAME.csv and .tex. *summary is the
-// table for a terminal.
+// From results.csv of the whole, tables/NAME.csv and .tex, and report.html if
+// there is a template for it. *summary is the table for a terminal.
 bool WriteTables(const std::string& output,
+                 const std::optional<std::string>& report_template,
                  std::string* summary,
                  std::string* error);
 

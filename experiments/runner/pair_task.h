@@ -42,6 +42,9 @@ struct PairTask {
   std::optional<Rigid3> true_target_from_source;
 
   std::optional<PairIns> ins;
+
+  // Leaves a 3D view for the report (experiments/report/pair_view.h).
+  bool keeps_view = false;
 };
 
 }  // namespace quatro

@@ -8,12 +8,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
+#include "experiments/runner/data_checksum.h"
 #include "features/file.h"
 
 namespace quatro {
@@ -51,6 +53,16 @@ bool MayBeARun(const std::string& folder) {
 }
 
 }  // namespace
+
+// Names of pairs may be no names of files.
+std::string ViewPath(const std::string& folder, const std::string& pair) {
+  char name[32];
+  std::snprintf(name,
+                sizeof(name),
+                "%016llx",
+                static_cast<unsigned long long>(Fnv1a(pair)));
+  return folder + "/views/" + name + ".json";
+}
 
 std::unique_ptr<RunFolder> RunFolder::Open(
     const std::string& path,
@@ -154,7 +166,21 @@ bool RunFolder::ReadRows(const std::vector<std::string>& methods,
 
 bool RunFolder::Append(const std::vector<PairResult>& results,
                        const std::string& note,
+                       const std::string& view,
                        std::string* error) {
+  // Before the lines: a pair that is done has its view, whenever a kill comes.
+  if (!view.empty()) {
+    std::error_code status;
+    fs::create_directories(path_ + "/views", status);
+    if (status) {
+      *error = path_ + "/views: " + status.message();
+      return false;
+    }
+    if (!WriteFileAtomically(
+            ViewPath(path_, results.front().pair), view, error)) {
+      return false;
+    }
+  }
   if (!note.empty()) {
     const std::string path = path_ + "/notes.txt";
     const int file =

@@ -7,6 +7,7 @@
 //                   a line a method; what is done is never written again
 //   results.csv     the same in the order of the tasks, once all are done
 //   shard_1_of_2/   folders of parts, if it was shared out
+//   views/          3D views of pairs for the report, a file each
 //   notes.txt       what was wrong with scans that can't be used
 //   run.lock        held by the process that works here
 //
@@ -25,6 +26,9 @@
 #include "experiments/runner/pair_result.h"
 
 namespace quatro {
+
+// Where the folder has the view of a pair, if it has one.
+std::string ViewPath(const std::string& folder, const std::string& pair);
 
 class RunFolder {
  public:
@@ -45,11 +49,12 @@ class RunFolder {
   bool Has(const std::string& pair) const { return rows_.contains(pair); }
   std::size_t size() const { return rows_.size(); }
 
-  // The lines of one pair, and a note unless it is empty. They are on the disk
-  // when this returns. Returns false and sets *error if they can't be written;
-  // what was there before stays whole.
+  // The lines of one pair, and its note and view unless they are empty. They
+  // are on the disk when this returns. Returns false and sets *error if they
+  // can't be written; what was there before stays whole.
   bool Append(const std::vector<PairResult>& results,
               const std::string& note,
+              const std::string& view,
               std::string* error);
 
   // Writes results.csv; `pairs` names all of them in order. Returns false and

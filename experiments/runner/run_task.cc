@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "experiments/methods.h"
 #include "features/cloud_io.h"
@@ -29,14 +30,46 @@ PairResult BlankResult(const PairTask& task) {
   return result;
 }
 
-void Fill(const RegistrationSummary& summary,
-          const PairTask& task,
-          PairResult* result) {
+TaskOutcome AllUnreadable(const PairResult& blank,
+                          const std::vector<std::string>& names,
+                          const std::string& note) {
+  TaskOutcome outcome;
+  outcome.note = note;
+  outcome.results.assign(names.size(), blank);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    outcome.results[i].method = names[i];
+    outcome.results[i].status = "unreadable";
+  }
+  return outcome;
+}
+
+std::string ViewOf(const PairTask& task,
+                   const MatchedClouds& matched,
+                   const RegistrationOptions& options,
+                   ViewOptions view,
+                   const std::vector<MethodAnswer>& answers) {
+  view.seed = options.seed;
+  return FormatPairView({task.name,
+                         task.source,
+                         task.target,
+                         matched.source.tree->points(),
+                         matched.target.tree->points(),
+                         task.true_target_from_source,
+                         options.quatro.noise_bound},
+                        answers,
+                        view);
+}
+
+}  // namespace
+
+void FillResult(const RegistrationSummary& summary,
+                const std::optional<Rigid3>& true_target_from_source,
+                PairResult* result) {
   result->status = StatusName(summary.verdict.status);
   result->target_from_source = summary.target_from_source();
-  if (result->target_from_source && task.true_target_from_source) {
-    result->error = MeasureError(*task.true_target_from_source,
-                                 *result->target_from_source);
+  if (result->target_from_source && true_target_from_source) {
+    result->error =
+        MeasureError(*true_target_from_source, *result->target_from_source);
   }
   result->probability = summary.verdict.probability;
   result->num_matches = summary.matched_source.cols();
@@ -45,18 +78,6 @@ void Fill(const RegistrationSummary& summary,
   result->stage_times = summary.stage_times;
   result->total_seconds = summary.total_seconds;
 }
-
-std::vector<PairResult> AllUnreadable(const PairResult& blank,
-                                      const std::vector<std::string>& names) {
-  std::vector<PairResult> results(names.size(), blank);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    results[i].method = names[i];
-    results[i].status = "unreadable";
-  }
-  return results;
-}
-
-}  // namespace
 
 bool RunMethods::IsValid(std::string* error) const {
   if (names.empty()) {
@@ -73,19 +94,13 @@ bool RunMethods::IsValid(std::string* error) const {
   return options.IsValid(error);
 }
 
-std::vector<PairResult> RunTask(const PairTask& task,
-                                const RunMethods& methods,
-                                std::string* note) {
-  note->clear();
+TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
   const PairResult blank = BlankResult(task);
   std::string error;
   std::optional<PointCloud> source = ReadCloud(task.source, &error);
   std::optional<PointCloud> target;
   if (source) target = ReadCloud(task.target, &error);
-  if (!target) {
-    *note = error;
-    return AllUnreadable(blank, methods.names);
-  }
+  if (!target) return AllUnreadable(blank, methods.names, error);
   if (task.added_yaw != 0.0) {
     source->points = RotationZ(task.added_yaw) * source->points;
   }
@@ -98,13 +113,16 @@ std::vector<PairResult> RunTask(const PairTask& task,
   }
   const MatchedClouds matched = MatchClouds(*source, *target, options);
   if (!matched.error.empty()) {
-    *note = task.source + ", " + task.target + ": " + matched.error;
-    return AllUnreadable(blank, methods.names);
+    return AllUnreadable(
+        blank,
+        methods.names,
+        task.source + ", " + task.target + ": " + matched.error);
   }
 
-  std::vector<PairResult> results;
+  TaskOutcome outcome;
+  std::vector<MethodAnswer> answers;  // Kept for the view alone.
   for (const std::string& name : methods.names) {
-    PairResult& result = results.emplace_back(blank);
+    PairResult& result = outcome.results.emplace_back(blank);
     result.method = name;
     RegistrationOptions used = options;
     if (NeedsIns(name)) {
@@ -117,16 +135,20 @@ std::vector<PairResult> RunTask(const PairTask& task,
       used.ins.target_attitude = task.ins->target;
       used.ins.attitude_std = task.ins->std;
     }
-    const RegistrationSummary summary = FindPairSolver(
+    RegistrationSummary summary = FindPairSolver(
         name, methods.own, &error)(*source, *target, matched, used);
     if (!summary.error.empty()) {
-      *note = name + ": " + summary.error;
+      outcome.note = name + ": " + summary.error;
       result.status = "unreadable";
       continue;
     }
-    Fill(summary, task, &result);
+    FillResult(summary, task.true_target_from_source, &result);
+    if (task.keeps_view) answers.push_back({name, std::move(summary)});
   }
-  return results;
+  if (!answers.empty()) {
+    outcome.view = ViewOf(task, matched, options, methods.view, answers);
+  }
+  return outcome;
 }
 
 }  // namespace quatro

@@ -6,11 +6,12 @@
 #ifndef QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
 #define QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
 
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/own_method.h"
+#include "experiments/report/pair_view.h"
 #include "experiments/runner/pair_result.h"
 #include "experiments/runner/pair_task.h"
 #include "robust/ins.h"
@@ -30,6 +31,9 @@ struct RunMethods {
   // threads and seed, which stay.
   bool use_auto_options = false;
 
+  // Of what tasks keep for the report, but for the seed, which is that above.
+  ViewOptions view = {};
+
   // How a method that needs an INS uses the pair's. A pair without one is
   // insufficient for it.
   InsMode ins_mode = InsMode::kFused;
@@ -39,11 +43,25 @@ struct RunMethods {
   bool IsValid(std::string* error) const;
 };
 
-// A result each, in the order of the names. If a scan can't be read or can't be
-// used, all are unreadable and *note says why; it stays empty otherwise.
-std::vector<PairResult> RunTask(const PairTask& task,
-                                const RunMethods& methods,
-                                std::string* note);
+// What the method says of the pair, and its error if there is a truth.
+void FillResult(const RegistrationSummary& summary,
+                const std::optional<Rigid3>& true_target_from_source,
+                PairResult* result);
+
+struct TaskOutcome {
+  // Of each method, in the order of the names.
+  std::vector<PairResult> results;
+
+  // Why, if a scan can't be read or used: then all are unreadable. Empty
+  // otherwise.
+  std::string note;
+
+  // JSON of experiments/report/pair_view.h, of all methods; empty unless the
+  // task keeps it and the scans could be used.
+  std::string view;
+};
+
+TaskOutcome RunTask(const PairTask& task, const RunMethods& methods);
 
 }  // namespace quatro
 

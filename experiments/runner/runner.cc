@@ -7,6 +7,7 @@
 #include <mutex>
 #include <unordered_set>
 
+#include "features/cloud_text.h"
 #include "features/parallel.h"
 
 namespace quatro {
@@ -24,7 +25,7 @@ std::optional<Shard> ParseShard(const std::string& text, std::string* error) {
       return shard;
     }
   }
-  *error = "'" + text + "', must be k/n with 1 <= k <= n";
+  *error = Quoted(text) + ", must be k/n with 1 <= k <= n";
   return std::nullopt;
 }
 
@@ -70,12 +71,12 @@ RunEnd RunTasks(const std::vector<PairTask>& tasks,
                   }
                   if (end != RunEnd::kDone) return;
                 }
-                std::string note;
-                const std::vector<PairResult> results = RunTask(
-                    *missing[static_cast<std::size_t>(begin)], methods, &note);
+                const TaskOutcome outcome =
+                    RunTask(*missing[static_cast<std::size_t>(begin)], methods);
                 const std::lock_guard<std::mutex> lock(mutex);
                 if (end == RunEnd::kFailed) return;
-                if (!folder->Append(results, note, error)) {
+                if (!folder->Append(
+                        outcome.results, outcome.note, outcome.view, error)) {
                   end = RunEnd::kFailed;
                   return;
                 }

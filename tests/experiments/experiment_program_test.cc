@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "experiments/report/report_template.h"
 #include "experiments/runner/pair_result.h"
 #include "features/cloud_io.h"
 #include "features/random.h"
@@ -29,6 +30,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr int kNumPairs = 12;
+constexpr int kNumViews = 5;
 
 class ExperimentProgramTest : public ProgramTest {
  protected:
@@ -52,6 +54,7 @@ class ExperimentProgramTest : public ProgramTest {
             "--preset=indoor",
             "--methods=quatro,ransac1k",
             "--threads=1",
+            "--report_views=" + std::to_string(kNumViews),
             "--output=" + PathOf(output)};
   }
 
@@ -73,6 +76,30 @@ class ExperimentProgramTest : public ProgramTest {
     }
     EXPECT_GE(tables.size(), 4u) << output;
     return tables;
+  }
+
+  // The views, and of the page all but the manifest and what it says of times.
+  std::map<std::string, std::string> ReportOf(const std::string& output) const {
+    std::map<std::string, std::string> report;
+    for (const auto& [name, text] : Contents()) {
+      if (name.starts_with(output + "/views/") && !text.empty()) {
+        report[name.substr(output.size())] = text;
+      }
+    }
+    EXPECT_EQ(report.size(), static_cast<std::size_t>(kNumViews)) << output;
+    std::string error;
+    if (!ReadReportTemplate(&error)) return report;
+    const std::string page = Read(output + "/report.html");
+    const std::string mark = "id=\"data\">";
+    const std::size_t begin = page.find(mark) + mark.size();
+    const std::size_t end = page.find("</script>", begin);
+    auto data = nlohmann::json::parse(page.substr(begin, end - begin));
+    for (auto& row : data["pairs"]["rows"]) {
+      for (int i = 0; i < 2; ++i) row.erase(row.size() - 1);
+    }
+    report["rows"] = data["pairs"]["rows"].dump();
+    report["views"] = data["views"].dump();
+    return report;
   }
 
   // Starts the program and kills it after so long; whether it was done before.
@@ -128,6 +155,7 @@ TEST_F(ExperimentProgramTest, KilledAtRandomMomentsItEndsTheSame) {
   const ProgramRun run = RunProgram("quatro_experiment", Flags("killed"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(TablesOf("killed"), TablesOf("whole"));
+  EXPECT_EQ(ReportOf("killed"), ReportOf("whole"));
 }
 
 TEST_F(ExperimentProgramTest, PartsMergeIntoTheWhole) {
@@ -148,6 +176,20 @@ TEST_F(ExperimentProgramTest, PartsMergeIntoTheWhole) {
       RunProgram("quatro_experiment", Flags("parts", "--merge"));
   ASSERT_EQ(merged.exit_code, 0) << merged.err;
   EXPECT_EQ(TablesOf("parts"), TablesOf("whole"));
+  EXPECT_EQ(ReportOf("parts"), ReportOf("whole"));
+}
+
+TEST_F(ExperimentProgramTest, FiguresDrawnSinceComeIntoTheReport) {
+  std::string error;
+  if (!ReadReportTemplate(&error)) GTEST_SKIP() << error;
+  ASSERT_EQ(RunProgram("quatro_experiment", Flags("run")).exit_code, 0);
+  EXPECT_THAT(Read("run/report.html"), HasSubstr("\"figures\":[]"));
+  std::filesystem::create_directory(PathOf("run/figures"));
+  Write("run/figures/recall.png", "foobar");
+  ASSERT_EQ(RunProgram("quatro_experiment", Flags("run")).exit_code, 0);
+  EXPECT_THAT(
+      Read("run/report.html"),
+      HasSubstr("\"figures\":[{\"name\":\"recall\",\"png\":\"Zm9vYmFy\"}]"));
 }
 
 TEST_F(ExperimentProgramTest, OtherFlagsOrDataAreNotMixedIn) {
@@ -180,6 +222,10 @@ TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
                  "must be one of");
   ExpectBadInput(
       "quatro_experiment", Flags("run", "--shard=4/3"), "--shard", "k/n");
+  ExpectBadInput("quatro_experiment",
+                 Flags("run", "--report_views=-1"),
+                 "--report_views",
+                 "must be >= 0");
   ExpectBadInput("quatro_experiment", {"--protocol=magic"}, "magic", "must be");
   ExpectBadInput("quatro_experiment",
                  {"--protocol=pairs", "--pairs=" + PathOf("pairs.csv")},

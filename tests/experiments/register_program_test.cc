@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "experiments/picture.h"
+#include "experiments/report/report_template.h"
 #include "features/cloud_io.h"
 #include "features/point_cloud.h"
 #include "features/random.h"
@@ -27,6 +28,7 @@ namespace quatro {
 namespace {
 
 using nlohmann::json;
+using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 struct Box {
@@ -269,7 +271,8 @@ TEST_F(RegisterProgramTest, StrayArgument) {
 }
 
 TEST_F(RegisterProgramTest, MissingOutputFolder) {
-  for (const std::string flag : {"json", "picture", "correspondences_out"}) {
+  for (const std::string flag :
+       {"json", "picture", "report", "correspondences_out"}) {
     ExpectRefusedFlag("--" + flag + "=" + PathOf("none/a"),
                       PathOf("none/a"),
                       "there is no folder");
@@ -277,7 +280,8 @@ TEST_F(RegisterProgramTest, MissingOutputFolder) {
 }
 
 TEST_F(RegisterProgramTest, OutputOntoAFolder) {
-  for (const std::string flag : {"json", "picture", "correspondences_out"}) {
+  for (const std::string flag :
+       {"json", "picture", "report", "correspondences_out"}) {
     ExpectRefusedFlag(
         "--" + flag + "=" + PathOf(""), PathOf(""), "is a directory");
   }
@@ -424,6 +428,33 @@ TEST_F(RegisterProgramTest, PictureIsAPng) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(Read("a.png"), StartsWith(kPngSignature));
   EXPECT_EQ(Contents().size(), 3u);
+}
+
+TEST_F(RegisterProgramTest, ReportHoldsThePairAndItsPose) {
+  std::string error;
+  if (!ReadReportTemplate(&error)) GTEST_SKIP() << error;
+  WriteYard();
+  const ProgramRun run = Register({"--report=" + PathOf("a.html")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::string page = Read("a.html");
+  EXPECT_THAT(page, StartsWith("<!DOCTYPE html>"));
+  const std::string mark = "id=\"view-0\">";
+  const std::size_t begin = page.find(mark) + mark.size();
+  const json view =
+      json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(view["methods"][0]["pose"].dump(),
+            json::parse(run.out)["target_from_source"].dump());
+  EXPECT_EQ(Contents().size(), 3u);
+}
+
+TEST_F(RegisterProgramTest, ReportOfNoAnswerIsAPageToo) {
+  std::string error;
+  if (!ReadReportTemplate(&error)) GTEST_SKIP() << error;
+  WritePoints("source.ply", Points::Ones(3, 5));
+  WritePoints("target.ply", Points::Ones(3, 5));
+  const ProgramRun run = Register({"--report=" + PathOf("a.html")});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(Read("a.html"), HasSubstr("\"pose\":null"));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "experiments/runner/run_folder.h"
 #include "features/cloud_io.h"
+#include "features/file.h"
 #include "robust/quatro.h"
 #include "tests/support/room_scans.h"
 #include "tests/support/run_program.h"
@@ -53,8 +54,8 @@ class RunFolderTest : public ProgramTest {
   void MakeTwoPairs() {
     const auto folder = Open();
     ASSERT_TRUE(folder) << error_;
-    ASSERT_TRUE(folder->Append(Results("a"), "", &error_)) << error_;
-    ASSERT_TRUE(folder->Append(Results("b"), "", &error_)) << error_;
+    ASSERT_TRUE(folder->Append(Results("a"), "", "", &error_)) << error_;
+    ASSERT_TRUE(folder->Append(Results("b"), "", "", &error_)) << error_;
   }
 
   std::string error_;
@@ -101,14 +102,29 @@ TEST_F(RunFolderTest, APairThatIsNotWholeIsTakenOff) {
                 size < first ? 0u : (size < whole.size() ? 1u : 2u))
           << size;
       if (!folder->Has("a")) {
-        ASSERT_TRUE(folder->Append(Results("a"), "", &error_));
+        ASSERT_TRUE(folder->Append(Results("a"), "", "", &error_));
       }
       if (!folder->Has("b")) {
-        ASSERT_TRUE(folder->Append(Results("b"), "", &error_));
+        ASSERT_TRUE(folder->Append(Results("b"), "", "", &error_));
       }
     }
     EXPECT_EQ(Read("run/rows.csv"), whole) << size;
   }
+}
+
+TEST_F(RunFolderTest, AViewIsThereOnceItsPairIs) {
+  const auto folder = Open();
+  ASSERT_TRUE(folder) << error_;
+  const std::string name = "../<a>/b";
+  ASSERT_TRUE(folder->Append(Results(name), "", "{}", &error_)) << error_;
+  EXPECT_EQ(ReadWholeFile(ViewPath(Folder(), name), &error_), "{}");
+  EXPECT_NE(ViewPath(Folder(), name), ViewPath(Folder(), name + "c"));
+  // A view that can't be kept leaves its pair undone.
+  std::filesystem::remove_all(Folder() + "/views");
+  std::ofstream(Folder() + "/views") << "in the way";
+  EXPECT_FALSE(folder->Append(Results("c"), "", "{}", &error_));
+  EXPECT_THAT(error_, HasSubstr("views"));
+  EXPECT_FALSE(folder->Has("c"));
 }
 
 TEST_F(RunFolderTest, TwoProcessesRefuseEachOther) {
@@ -277,12 +293,28 @@ TEST_F(RunTasksTest, AScanThatIsMissingIsToldAndCounted) {
 
 TEST_F(RunTasksTest, AMethodThatNeedsAnInsIsInsufficientWithoutOne) {
   methods_.names = {"quatro_ins"};
-  std::string note;
-  EXPECT_EQ(RunTask(tasks_[0], methods_, &note).front().status, "insufficient");
+  EXPECT_EQ(RunTask(tasks_[0], methods_).results[0].status, "insufficient");
   tasks_[0].ins = PairIns{{}, {}, 0.005};
-  const PairResult with_ins = RunTask(tasks_[0], methods_, &note).front();
-  ASSERT_TRUE(with_ins.error) << note;
+  const TaskOutcome outcome = RunTask(tasks_[0], methods_);
+  const PairResult& with_ins = outcome.results[0];
+  ASSERT_TRUE(with_ins.error) << outcome.note;
   EXPECT_LT(with_ins.error->rotation, 0.02);
+}
+
+TEST_F(RunTasksTest, AViewIsOfAllMethodsAndAlwaysTheSame) {
+  EXPECT_EQ(RunTask(tasks_[1], methods_).view, "");
+  tasks_[1].keeps_view = true;
+  const std::string view = RunTask(tasks_[1], methods_).view;
+  EXPECT_EQ(RunTask(tasks_[1], methods_).view, view);
+  const auto json = nlohmann::json::parse(view);
+  EXPECT_EQ(json["pair"], "pair 1");
+  ASSERT_EQ(json["methods"].size(), 2u);
+  EXPECT_FALSE(json["methods"][0]["stages"].is_null());
+  EXPECT_TRUE(json["methods"][1]["stages"].is_null());  // icp has no matches.
+  methods_.options.seed = 5;
+  EXPECT_NE(RunTask(tasks_[1], methods_).view, view);
+  tasks_[1].source = PathOf("nowhere.bin");
+  EXPECT_EQ(RunTask(tasks_[1], methods_).view, "");
 }
 
 TEST_F(RunTasksTest, TwoTasksOfOneNameAreRefused) {

@@ -72,6 +72,27 @@ TEST_F(DistinctMatchesTest, TakesCopiesTogetherWhereverTheyAre) {
   }
 }
 
+TEST_F(DistinctMatchesTest, ValuesComeInTheOrderOfTheirColumns) {
+  auto order = RandomPermutation(source_.cols(), 1);
+  const auto again = RandomPermutation(source_.cols(), 2);
+  order.insert(order.end(), again.begin(), again.end());
+  const DistinctMatches doubled =
+      FindDistinctMatches(Reordered(source_, order), Reordered(target_, order));
+  const std::vector<Eigen::Index> selected = {7, 3, 20};
+  // Of each the x of its source.
+  std::vector<double> values;
+  for (const Eigen::Index k : selected) {
+    values.push_back(doubled.source(0, k));
+  }
+  const auto columns = InputColumns(doubled, selected);
+  const auto in_order = InputValues(doubled, selected, values);
+  ASSERT_THAT(in_order, SizeIs(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto column = static_cast<std::size_t>(columns[i]);
+    EXPECT_EQ(in_order[i], source_(0, order[column]));
+  }
+}
+
 TEST_F(DistinctMatchesTest, TwoMatchesThatShareAPointAreTwo) {
   Points target = target_.leftCols(2);
   const Points source = source_.leftCols(1).replicate(1, 2);

@@ -128,6 +128,30 @@ TEST_P(QuatroTest, TranslationInliersAreWithinTheNoiseBound) {
   }
 }
 
+// Without the clique wrong matches come as far as the rotation.
+TEST_P(QuatroTest, WeightsTellRightMatchesFromWrongOnes) {
+  QuatroOptions options = options_;
+  options.pruning = Pruning::kNone;
+  const KnownProblem problem =
+      MakeMatchedProblem({.num_inliers = 120, .num_outliers = 40}, 3);
+  for (const YawSolver solver : {YawSolver::kGnc, YawSolver::kExact}) {
+    options.yaw_solver = solver;
+    const QuatroSummary summary = Solve(problem, options);
+    ASSERT_EQ(summary.match_weights.size(), summary.consistent.size());
+    double right = 0.0, wrong = 0.0;
+    for (std::size_t k = 0; k < summary.consistent.size(); ++k) {
+      const double weight = summary.match_weights[k];
+      ASSERT_GE(weight, 0.0);
+      ASSERT_LE(weight, 1.0);
+      (std::ranges::binary_search(problem.inliers, summary.consistent[k])
+           ? right
+           : wrong) += weight;
+    }
+    EXPECT_GT(right / 120.0, 0.85);
+    EXPECT_LT(wrong / 40.0, 0.15);
+  }
+}
+
 TEST_P(QuatroTest, OrderOfMatchesDoesNotMatterBitForBit) {
   const QuatroSummary expected = Solve(problem_, options_);
   for (std::uint64_t seed = 0; seed < 5; ++seed) {

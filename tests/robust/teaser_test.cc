@@ -146,6 +146,17 @@ TEST(Teaser, OrderOfMatchesDoesNotMatterBitForBit) {
   }
 }
 
+TEST(Teaser, EveryConsistentMatchHasAWeight) {
+  const KnownProblem problem = TurnedProblem(60, 120, 2);
+  const TeaserSummary summary = Solve(problem);
+  ASSERT_EQ(summary.match_weights.size(), summary.consistent.size());
+  for (std::size_t k = 0; k < summary.consistent.size(); ++k) {
+    if (std::ranges::binary_search(problem.inliers, summary.consistent[k])) {
+      EXPECT_GT(summary.match_weights[k], 0.5) << summary.consistent[k];
+    }
+  }
+}
+
 // The ring of differences is another one, shuffled by the coordinates.
 TEST(Teaser, MovingTheTargetMovesThePose) {
   const KnownProblem problem = TurnedProblem(60, 120, 3);

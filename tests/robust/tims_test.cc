@@ -109,5 +109,11 @@ TEST(ComputeTims, NoPairsGiveNoColumns) {
   EXPECT_EQ(ComputeTims(Points(3, 1), {}).cols(), 0);
 }
 
+TEST(WeighPoints, APointHasTheLargestWeightOfItsDifferences) {
+  const Eigen::Vector4d weights(0.2, 0.9, 0.1, 0.4);
+  EXPECT_THAT(WeighPoints({{0, 3}, {1, 0}, {2, 1}, {3, 2}}, weights, 5),
+              ElementsAre(0.9, 0.9, 0.4, 0.4, 0.0));
+}
+
 }  // namespace
 }  // namespace quatro

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Bytes as text, as in RFC 4648, section 4.
+
+#ifndef QUATRO_EXPERIMENTS_REPORT_BASE64_H_
+#define QUATRO_EXPERIMENTS_REPORT_BASE64_H_
+
+#include <string>
+#include <string_view>
+
+namespace quatro {
+
+std::string EncodeBase64(std::string_view bytes);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_REPORT_BASE64_H_

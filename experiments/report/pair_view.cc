@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/report/pair_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "experiments/report/base64.h"
+#include "experiments/report/quantized_points.h"
+#include "experiments/report/thinning.h"
+#include "features/random.h"
+#include "robust/consensus.h"
+#include "robust/distinct_matches.h"
+
+namespace quatro {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Indices = std::vector<Eigen::Index>;
+
+constexpr int kIsConsistent = 1;
+constexpr int kIsAgreeing = 2;
+
+Json Rows(const std::optional<Rigid3>& pose) {
+  if (!pose) return nullptr;
+  const Eigen::Matrix4d matrix = pose->ToMatrix();
+  Json rows = Json::array();
+  for (const auto row : matrix.rowwise()) {
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return rows;
+}
+
+// Of matches: a bit for each stage that they outlived.
+std::vector<int> FatesOf(const RegistrationSummary& summary) {
+  std::vector<int> fates(
+      static_cast<std::size_t>(summary.matched_source.cols()));
+  const auto mark = [&](const Indices& columns, int bit) {
+    for (const Eigen::Index i : columns) {
+      fates[static_cast<std::size_t>(i)] |= bit;
+    }
+  };
+  mark(summary.solution.consistent, kIsConsistent);
+  mark(summary.solution.translation_inliers, kIsAgreeing);
+  return fates;
+}
+
+// Of matches; 0 of those that were not consistent. Empty if there are none.
+std::vector<double> WeightsOf(const PoseSummary& solution,
+                              Eigen::Index num_matches) {
+  if (solution.match_weights.empty()) return {};
+  std::vector<double> weights(static_cast<std::size_t>(num_matches));
+  for (std::size_t k = 0; k < solution.consistent.size(); ++k) {
+    weights[static_cast<std::size_t>(solution.consistent[k])] =
+        solution.match_weights[k];
+  }
+  return weights;
+}
+
+bool HasSameMatches(const RegistrationSummary& a,
+                    const RegistrationSummary& b) {
+  return a.matched_source.cols() == b.matched_source.cols() &&
+         a.matched_source == b.matched_source &&
+         a.matched_target == b.matched_target;
+}
+
+// The answer whose matches are drawn; a nullptr if there are none.
+const RegistrationSummary* FindMatched(
+    const std::vector<MethodAnswer>& answers) {
+  for (const MethodAnswer& answer : answers) {
+    if (answer.summary.matched_source.cols() > 0) return &answer.summary;
+  }
+  return nullptr;
+}
+
+// Those that are drawn: of what any method kept first, then of the others.
+Indices ChooseMatches(const RegistrationSummary& matched,
+                      const std::vector<MethodAnswer>& answers,
+                      const ViewOptions& options) {
+  const Eigen::Index num_matches = matched.matched_source.cols();
+  std::vector<bool> is_kept(static_cast<std::size_t>(num_matches));
+  for (const MethodAnswer& answer : answers) {
+    if (!HasSameMatches(answer.summary, matched)) continue;
+    const std::vector<int> fates = FatesOf(answer.summary);
+    for (std::size_t i = 0; i < fates.size(); ++i) {
+      if (fates[i] != 0) is_kept[i] = true;
+    }
+  }
+  Indices kept, others;
+  for (Eigen::Index i = 0; i < num_matches; ++i) {
+    (is_kept[static_cast<std::size_t>(i)] ? kept : others).push_back(i);
+  }
+  const auto num_others = static_cast<Eigen::Index>(others.size());
+  const Eigen::Index max_kept =
+      std::max(options.max_matches * 3 / 4, options.max_matches - num_others);
+  Indices chosen = Thin(kept, max_kept, Mix(options.seed + 1));
+  const auto num_kept = static_cast<Eigen::Index>(chosen.size());
+  const Indices more =
+      Thin(others, options.max_matches - num_kept, Mix(options.seed + 2));
+  chosen.insert(chosen.end(), more.begin(), more.end());
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+struct StageCounts {
+  long matches = 0;
+  long consistent = 0;
+  long weighted = 0;
+  long agreeing = 0;
+};
+
+Json Describe(const StageCounts& counts) {
+  return {{"matches", counts.matches},
+          {"consistent", counts.consistent},
+          {"weighted", counts.weighted},
+          {"agreeing", counts.agreeing}};
+}
+
+// Of the matches for which `is_counted`, or of all if it is empty.
+StageCounts CountStages(const std::vector<int>& fates,
+                        const std::vector<double>& weights,
+                        const std::vector<bool>& is_counted) {
+  StageCounts counts;
+  for (std::size_t i = 0; i < fates.size(); ++i) {
+    if (!is_counted.empty() && !is_counted[i]) continue;
+    ++counts.matches;
+    if (fates[i] & kIsConsistent) ++counts.consistent;
+    if (fates[i] & kIsAgreeing) ++counts.agreeing;
+    if (!weights.empty() && weights[i] >= 0.5) ++counts.weighted;
+  }
+  return counts;
+}
+
+Json DescribeStages(const RegistrationSummary& summary,
+                    const ViewedPair& pair,
+                    const Indices& chosen) {
+  const std::vector<int> fates = FatesOf(summary);
+  const std::vector<double> weights =
+      WeightsOf(summary.solution, summary.matched_source.cols());
+  std::string fate_bytes, weight_bytes;
+  for (const Eigen::Index i : chosen) {
+    const auto k = static_cast<std::size_t>(i);
+    fate_bytes += static_cast<char>(fates[k]);
+    if (!weights.empty()) {
+      weight_bytes += static_cast<char>(
+          std::lround(255.0 * std::clamp(weights[k], 0.0, 1.0)));
+    }
+  }
+  Json stages = {
+      {"fate", EncodeBase64(fate_bytes)},
+      {"weight", weights.empty() ? Json() : Json(EncodeBase64(weight_bytes))},
+      {"counts", Describe(CountStages(fates, weights, {}))},
+      {"right", nullptr}};
+  if (pair.true_target_from_source) {
+    std::vector<bool> is_right(fates.size());
+    for (const Eigen::Index i : FindAgreeing(summary.matched_source,
+                                             summary.matched_target,
+                                             *pair.true_target_from_source,
+                                             pair.noise_bound)) {
+      is_right[static_cast<std::size_t>(i)] = true;
+    }
+    if (!is_right.empty()) {
+      stages["right"] = Describe(CountStages(fates, weights, is_right));
+    }
+  }
+  return stages;
+}
+
+Json Describe(const MethodAnswer& answer, const Json& stages) {
+  const RegistrationSummary& summary = answer.summary;
+  Json features = Json::object();
+  for (const Feature& feature : summary.verdict.features) {
+    features[feature.name] = feature.value;
+  }
+  Json notes = Json::array();
+  for (const StageNote& note : summary.solution.notes) {
+    notes.push_back({note.stage, note.text});
+  }
+  return {{"name", answer.method},
+          {"status", StatusName(summary.verdict.status)},
+          {"reason", summary.verdict.reason},
+          {"pose", Rows(summary.target_from_source())},
+          {"features", features},
+          {"notes", notes},
+          {"stages", stages}};
+}
+
+// A cloud and its matched points, in one grid.
+struct DrawnCloud {
+  Json cloud;
+  Json matched;
+};
+
+DrawnCloud Draw(const Points& points,
+                const Points& matched,
+                Eigen::Index max_points,
+                std::uint64_t seed) {
+  const Points drawn =
+      Columns(points, ThinRange(points.cols(), max_points, seed));
+  Points both(3, drawn.cols() + matched.cols());
+  both << drawn, matched;
+  const PointGrid grid = FindGrid(both);
+  const Eigen::Vector3d& origin = grid.origin;
+  return {{{"points", points.cols()},
+           {"origin", {origin.x(), origin.y(), origin.z()}},
+           {"step", grid.step},
+           {"xyz", EncodeBase64(QuantizePoints(drawn, grid))}},
+          EncodeBase64(QuantizePoints(matched, grid))};
+}
+
+}  // namespace
+
+bool ViewOptions::IsValid(std::string* error) const {
+  if (max_points >= 1 && max_matches >= 4) return true;
+  *error =
+      max_points < 1 ? "max_points must be >= 1" : "max_matches must be >= 4";
+  return false;
+}
+
+ViewOptions MakeViewOptions(std::size_t num_pairs) {
+  // In base64 a point of each cloud takes 16 bytes, a match of one method 19.
+  const auto n = static_cast<Eigen::Index>(std::max<std::size_t>(num_pairs, 1));
+  ViewOptions options;
+  options.max_points = std::clamp<Eigen::Index>(1'000'000 / n, 2'000, 6'000);
+  options.max_matches = std::clamp<Eigen::Index>(300'000 / n, 600, 2'000);
+  return options;
+}
+
+std::string FormatPairView(const ViewedPair& pair,
+                           const std::vector<MethodAnswer>& answers,
+                           const ViewOptions& options) {
+  const RegistrationSummary* const matched = FindMatched(answers);
+  Indices chosen;
+  Points matched_source(3, 0), matched_target(3, 0);
+  if (matched) {
+    chosen = ChooseMatches(*matched, answers, options);
+    matched_source = Columns(matched->matched_source, chosen);
+    matched_target = Columns(matched->matched_target, chosen);
+  }
+  const DrawnCloud source = Draw(
+      pair.source, matched_source, options.max_points, Mix(options.seed + 3));
+  const DrawnCloud target = Draw(
+      pair.target, matched_target, options.max_points, Mix(options.seed + 4));
+  Json methods = Json::array();
+  for (const MethodAnswer& answer : answers) {
+    const bool has_stages = matched && HasSameMatches(answer.summary, *matched);
+    methods.push_back(Describe(
+        answer,
+        has_stages ? DescribeStages(answer.summary, pair, chosen) : Json()));
+  }
+  const Json view = {
+      {"pair", pair.name},
+      {"files", {pair.source_file, pair.target_file}},
+      {"source", source.cloud},
+      {"target", target.cloud},
+      {"truth", Rows(pair.true_target_from_source)},
+      {"matches", {{"source", source.matched}, {"target", target.matched}}},
+      {"methods", methods}};
+  // What is not UTF-8 is replaced rather than thrown at.
+  return view.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace quatro

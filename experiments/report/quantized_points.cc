@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/report/quantized_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace quatro {
+namespace {
+
+constexpr double kMaxSteps = 32767.0;
+
+}  // namespace
+
+PointGrid FindGrid(const PointsRef& points) {
+  PointGrid grid;
+  if (points.cols() == 0) return grid;
+  const Eigen::Vector3d low = points.rowwise().minCoeff();
+  const Eigen::Vector3d high = points.rowwise().maxCoeff();
+  // Not (low + high) / 2, which may overflow.
+  grid.origin = low + 0.5 * (high - low);
+  const double half =
+      (high - grid.origin).cwiseMax(grid.origin - low).maxCoeff();
+  if (half > 0.0) grid.step = half / kMaxSteps;
+  return grid;
+}
+
+std::string QuantizePoints(const PointsRef& points, const PointGrid& grid) {
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(6 * points.cols()));
+  for (const auto point : points.colwise()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double steps =
+          std::round((point(axis) - grid.origin(axis)) / grid.step);
+      const auto whole = static_cast<std::uint16_t>(
+          static_cast<std::int16_t>(std::clamp(steps, -kMaxSteps, kMaxSteps)));
+      bytes += static_cast<char>(whole & 0xff);
+      bytes += static_cast<char>(whole >> 8);
+    }
+  }
+  return bytes;
+}
+
+Points UnquantizePoints(const std::string& bytes, const PointGrid& grid) {
+  Points points(3, static_cast<Eigen::Index>(bytes.size() / 6));
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    const auto at = static_cast<std::size_t>(2 * i);
+    const auto low = static_cast<unsigned char>(bytes[at]);
+    const auto high = static_cast<unsigned char>(bytes[at + 1]);
+    const auto whole =
+        static_cast<std::int16_t>(static_cast<std::uint16_t>(low | high << 8));
+    points(i % 3, i / 3) = grid.origin(i % 3) + grid.step * whole;
+  }
+  return points;
+}
+
+}  // namespace quatro

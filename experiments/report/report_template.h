@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The page without data: page/ and three.js in one file, made by
+// build_template.mjs when quatro is built.
+
+#ifndef QUATRO_EXPERIMENTS_REPORT_REPORT_TEMPLATE_H_
+#define QUATRO_EXPERIMENTS_REPORT_REPORT_TEMPLATE_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace quatro {
+
+// The three marks, each once and in this order, in place of data.
+inline constexpr std::string_view kTitleMark = "@@QUATRO_TITLE@@";
+inline constexpr std::string_view kDataMark = "@@QUATRO_DATA@@";
+inline constexpr std::string_view kViewsMark = "@@QUATRO_VIEWS@@";
+
+// Nullopt, with *error saying what to install, where quatro was built without.
+std::optional<std::string> ReadReportTemplate(std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_REPORT_REPORT_TEMPLATE_H_
