@@ -342,9 +342,9 @@ TEST_F(RunTasksTest, AnOwnMethodStandsBesideOurs) {
          };
        }}};
   methods_.names = {"quatro", "same", "anywhere"};
-  std::string note;
-  const auto results = RunTask(tasks_[0], methods_, &note);
-  ASSERT_EQ(results.size(), 3u) << note;
+  const TaskOutcome outcome = RunTask(tasks_[0], methods_);
+  const std::vector<PairResult>& results = outcome.results;
+  ASSERT_EQ(results.size(), 3u) << outcome.note;
   ASSERT_TRUE(results[0].target_from_source);
   ASSERT_TRUE(results[1].target_from_source);
   ASSERT_TRUE(results[2].target_from_source);
