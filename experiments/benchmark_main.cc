@@ -131,9 +131,7 @@ const char* SimdName() {
   return "baseline";
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   using quatro::Fail;
   std::vector<char*> ours = {argv[0]};
   std::vector<char*> theirs = {argv[0]};
@@ -225,3 +223,7 @@ int main(int argc, char** argv) {
   // It has said so: the filter fits nothing, or is no regular expression.
   return num_run == 0 ? quatro::kExitBadInput : quatro::kExitDone;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

@@ -54,9 +54,7 @@ std::vector<PointOnLine> DrawPoints() {
   return points;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "fit_line_main", argc, argv)) {
     return *exit_code;
@@ -91,3 +89,7 @@ int main(int argc, char** argv) {
               summary.BriefReport().c_str());
   return summary.IsUsable() ? quatro::kExitDone : quatro::kExitNotVouchedFor;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

@@ -56,7 +56,7 @@ std::string Quoted(std::string_view text) {
   const bool is_long = text.size() > kMaxQuoted;
   std::string quoted(text.substr(0, kMaxQuoted));
   for (char& c : quoted) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
   return "'" + quoted + (is_long ? "...'" : "'");
 }
@@ -107,6 +107,7 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
     }
   }
 
+  if (values.empty()) return MatchedPoints();
   const auto num_matches = static_cast<Eigen::Index>(values.size() / 6);
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> rows(
       values.data(), 6, num_matches);

@@ -3,6 +3,8 @@
 
 #include "experiments/methods.h"
 
+#include <algorithm>
+
 #ifdef QUATRO_WITH_OPEN3D
 #include "experiments/peers/open3d.h"
 #include "experiments/peers/open3d_fpfh.h"
@@ -170,6 +172,18 @@ RegistrationSummary RegisterByPeerFpfh(const PointCloud& source,
 }
 #endif
 
+RegistrationSummary RegisterBy(
+    const std::function<PoseSolver(const QuatroOptions&)>& make,
+    const MatchedClouds& matched,
+    const RegistrationOptions& options) {
+  QuatroOptions quatro = options.quatro;
+  quatro.seed = options.seed;
+  quatro.num_threads = options.num_threads;
+  RegistrationOptions solved = options;
+  solved.solver = make(quatro);
+  return RegisterMatched(matched, solved);
+}
+
 enum class Ins { kRefused, kTaken, kNeeded };
 
 // From matches, `make`, from clouds with matches, `register_matched`, or
@@ -332,13 +346,17 @@ std::vector<std::string> OdometryMethodNames() {
   return names;
 }
 
-std::string DescribeMethods() {
+std::string DescribeMethods(const std::vector<OwnMethod>& own) {
   std::string text;
+  const auto describe = [&text](std::string name,
+                                const std::string& description) {
+    name.resize(std::max<std::size_t>(name.size() + 1, 16), ' ');
+    text += name + description + "\n";
+  };
   for (const Method& method : kMethods) {
-    std::string name = method.name;
-    name.resize(16, ' ');
-    text += name + method.description + "\n";
+    describe(method.name, method.description);
   }
+  for (const OwnMethod& method : own) describe(method.name, method.description);
   return text;
 }
 
@@ -425,17 +443,32 @@ PairSolver FindPairSolver(const std::string& name, std::string* error) {
       if (method.register_clouds) {
         return method.register_clouds(source, target, Rigid3(), options);
       }
-      QuatroOptions quatro = options.quatro;
-      quatro.seed = options.seed;
-      quatro.num_threads = options.num_threads;
-      RegistrationOptions solved = options;
-      solved.solver = method.make(quatro);
-      return RegisterMatched(matched, solved);
+      return RegisterBy(method.make, matched, options);
     };
   }
   // Says what is wrong with the name.
   MakeSolver(name, QuatroOptions(), error);
   return nullptr;
+}
+
+PairSolver FindPairSolver(const std::string& name,
+                          const std::vector<OwnMethod>& own,
+                          std::string* error) {
+  for (const OwnMethod& method : own) {
+    if (name != method.name) continue;
+    for (const Method& known : kMethods) {
+      if (name != known.name) continue;
+      *error = "there is a method " + name + " already";
+      return nullptr;
+    }
+    return [make = method.make](const PointCloud&,
+                                const PointCloud&,
+                                const MatchedClouds& matched,
+                                const RegistrationOptions& options) {
+      return RegisterBy(make, matched, options);
+    };
+  }
+  return FindPairSolver(name, error);
 }
 
 bool NeedsIns(const std::string& name) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/own_method.h"
 #include "features/point_cloud.h"
 #include "robust/ins.h"
 #include "robust/quatro.h"
@@ -25,8 +26,8 @@ std::vector<std::string> CloudMethodNames();  // From clouds.
 
 std::vector<std::string> OdometryMethodNames();  // From scans in a row.
 
-// One line a method, its name and what it does.
-std::string DescribeMethods();
+// One line a method, its name and what it does; own ones last.
+std::string DescribeMethods(const std::vector<OwnMethod>& own = {});
 
 // The method with noise bound, seed, threads and all else that applies to it
 // from `options`. Empty, with *error set, for a name that is not known, for a
@@ -71,6 +72,12 @@ using PairSolver =
 
 // Empty, with *error set, for a name that is not known and for an odometry.
 PairSolver FindPairSolver(const std::string& name, std::string* error);
+
+// The same, for the names in `own` as well. Empty, with *error set, for one
+// that is in the registry, too.
+PairSolver FindPairSolver(const std::string& name,
+                          const std::vector<OwnMethod>& own,
+                          std::string* error);
 
 // Whether the method can't do without an INS.
 bool NeedsIns(const std::string& name);

@@ -104,9 +104,7 @@ void PrintDrift(const quatro::KittiDrift& drift) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   using quatro::Fail;
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "odometry_main", argc, argv)) {
@@ -208,3 +206,7 @@ int main(int argc, char** argv) {
              ? quatro::kExitNotVouchedFor
              : quatro::kExitDone;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

@@ -167,9 +167,7 @@ void PrintTruth(const quatro::GraphWorld& world,
       difference.rotation);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "pose_graph_main", argc, argv)) {
     return *exit_code;
@@ -220,3 +218,7 @@ int main(int argc, char** argv) {
   if (!quatro::WriteOutputs(files, &error)) return Fail(error);
   return quatro::kExitDone;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

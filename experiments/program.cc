@@ -8,6 +8,11 @@
 #include <quatro/version.h>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <new>
+#include <system_error>
+
+#include "experiments/progress_line.h"
 
 DECLARE_bool(help);
 DECLARE_bool(helpshort);
@@ -18,6 +23,61 @@ extern void (*gflags_exitfunc)(int);  // Called after a flag that is wrong.
 }
 
 namespace quatro {
+namespace {
+
+// Without a string, for which there may be no memory.
+void TellOutOfMemory() {
+  EndProgressLine();
+  std::fprintf(stderr,
+               "%s: out of memory; free some, raise the limit (ulimit -v), or "
+               "take fewer --threads or a smaller input\n",
+               gflags::ProgramInvocationShortName());
+}
+
+// A thread that can't be started says EAGAIN: there is no room for its stack.
+bool IsForMemory(const std::system_error& error) {
+  return error.code() == std::errc::resource_unavailable_try_again ||
+         error.code() == std::errc::not_enough_memory;
+}
+
+// Of the exception that is being handled.
+void TellException() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return TellOutOfMemory();
+  } catch (const std::system_error& error) {
+    if (IsForMemory(error)) return TellOutOfMemory();
+    Fail(std::string(error.what()) + "; not expected here, please report it");
+  } catch (const std::exception& error) {
+    Fail(std::string(error.what()) + "; not expected here, please report it");
+  }
+}
+
+// For an exception that nobody on its thread catches: a library's own thread.
+[[noreturn]] void EndOrderly() {
+  if (!std::current_exception()) std::abort();
+  try {
+    TellException();
+  } catch (...) {
+    std::abort();
+  }
+  std::_Exit(kExitStopped);
+}
+
+}  // namespace
+
+int RunProgram(const std::function<int(int argc, char** argv)>& run,
+               int argc,
+               char** argv) {
+  std::set_terminate(EndOrderly);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception&) {
+    TellException();
+  }
+  return kExitStopped;
+}
 
 std::optional<int> ParseFlags(const std::string& usage,
                               const std::string& main_file,
@@ -40,8 +100,14 @@ std::optional<int> ParseFlags(const std::string& usage,
 }
 
 int Fail(const std::string& error) {
+  EndProgressLine();
+  // Paths and flags may hold anything; a terminal would act upon it.
+  std::string line = error;
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
   std::fprintf(
-      stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), error.c_str());
+      stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), line.c_str());
   return kExitBadInput;
 }
 

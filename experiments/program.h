@@ -5,6 +5,7 @@
 #ifndef QUATRO_EXPERIMENTS_PROGRAM_H_
 #define QUATRO_EXPERIMENTS_PROGRAM_H_
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -15,7 +16,15 @@ enum ExitCode {
   kExitNotVouchedFor =
       1,              // There may be an answer; the JSON says what is wrong.
   kExitBadInput = 2,  // Flags or files; one line on stderr says which.
+  kExitStopped = 3,   // On request, or for want of memory.
 };
+
+// The whole of a program: run(argc, argv) gives its exit code. Where there is
+// not enough memory for it, one line on stderr says so, and the exit code is
+// kExitStopped; so for all else that a library throws.
+int RunProgram(const std::function<int(int argc, char** argv)>& run,
+               int argc,
+               char** argv);
 
 // Parses the flags. Returns the exit code if the program is to end here: after
 // --help or --version, or for a flag or argument that is not known. `main_file`

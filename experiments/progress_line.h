@@ -14,6 +14,18 @@
 
 namespace quatro {
 
+// Whether the cursor stands behind a progress that is not at its end.
+inline bool& IsProgressLineOpen() {
+  static bool is_open = false;
+  return is_open;
+}
+
+// What follows, an error say, gets a line of its own.
+inline void EndProgressLine() {
+  if (IsProgressLineOpen()) std::fputc('\n', stderr);
+  IsProgressLineOpen() = false;
+}
+
 class ProgressLine {
  public:
   // `things` is what is counted, e.g. "scans".
@@ -29,6 +41,7 @@ class ProgressLine {
                  things_.c_str(),
                  left,
                  num_done == num_things ? "\n" : "");
+    IsProgressLineOpen() = num_done != num_things;
   }
 
  private:

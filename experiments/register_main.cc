@@ -179,9 +179,7 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   return options;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   using quatro::Fail;
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "register_main", argc, argv)) {
@@ -302,3 +300,7 @@ int main(int argc, char** argv) {
   return summary.verdict.IsRegistered() ? quatro::kExitDone
                                         : quatro::kExitNotVouchedFor;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

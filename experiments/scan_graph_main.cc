@@ -59,9 +59,7 @@ std::vector<std::string> SplitAtCommas(const std::string& text) {
   return parts;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "scan_graph_main", argc, argv)) {
     return *exit_code;
@@ -140,3 +138,7 @@ int main(int argc, char** argv) {
   }
   return quatro::kExitDone;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

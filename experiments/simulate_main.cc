@@ -171,9 +171,7 @@ int WriteSets(const std::vector<quatro::PairSetOptions>& sets) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   using quatro::Fail;
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "simulate_main", argc, argv)) {
@@ -214,3 +212,7 @@ int main(int argc, char** argv) {
   }
   return 0;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

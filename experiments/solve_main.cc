@@ -109,9 +109,7 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   return options;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   using quatro::Fail;
   if (const auto exit_code =
           quatro::ParseFlags(kUsage, "solve_main", argc, argv)) {
@@ -196,3 +194,7 @@ int main(int argc, char** argv) {
   return verdict.IsRegistered() ? quatro::kExitDone
                                 : quatro::kExitNotVouchedFor;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -121,11 +122,24 @@ struct alignas(64) Block {
   std::int32_t index[kLanes];
 };
 
-// Rows of several points, one after the other.
+// Rows of several points, one after the other. Room for more is not set to
+// zero: it is several times what gets used.
 struct Rows {
-  std::vector<std::int32_t> index;
-  std::vector<float> squared_distance;
+  std::unique_ptr<std::int32_t[]> index;
+  std::unique_ptr<float[]> squared_distance;
   std::size_t size = 0;
+  std::size_t capacity = 0;
+
+  void MakeRoomFor(std::size_t num_more) {
+    if (size + num_more <= capacity) return;
+    capacity = 2 * (size + num_more);
+    auto more_index = std::make_unique_for_overwrite<std::int32_t[]>(capacity);
+    auto more_distance = std::make_unique_for_overwrite<float[]>(capacity);
+    std::copy_n(index.get(), size, more_index.get());
+    std::copy_n(squared_distance.get(), size, more_distance.get());
+    index = std::move(more_index);
+    squared_distance = std::move(more_distance);
+  }
 };
 
 // Those of the blocks' points within the radius of `query`, to the end of
@@ -138,8 +152,8 @@ QUATRO_SIMD_INLINE void Append(const std::vector<Block>& blocks,
   using Double = typename Lanes<kBytes>::Double;
   using Int = typename Lanes<kBytes>::Int;
   constexpr int kDoubles = kBytes / 8;
-  std::int32_t* index = rows->index.data();
-  float* squared_distance = rows->squared_distance.data();
+  std::int32_t* index = rows->index.get();
+  float* squared_distance = rows->squared_distance.get();
   std::size_t size = rows->size;
   for (const Block& block : blocks) {
     alignas(64) double d2[kLanes];
@@ -192,11 +206,7 @@ void Append(const std::vector<Block>& blocks,
             double squared_radius,
             SimdLevel level,
             Rows* rows) {
-  const std::size_t most = rows->size + blocks.size() * kLanes;
-  if (most > rows->index.size()) {
-    rows->index.resize(2 * most);
-    rows->squared_distance.resize(2 * most);
-  }
+  rows->MakeRoomFor(blocks.size() * kLanes);
   switch (level) {
     case SimdLevel::kAvx512:
       return AppendByAvx512(blocks, query, squared_radius, rows);
@@ -250,8 +260,8 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
     for (Eigen::Index c = begin; c < end; ++c) {
       const Cell& cell = cells->cells[static_cast<std::size_t>(c)];
       near.clear();
-      for (const std::uint64_t x : {0, 1, 2}) {
-        for (const std::uint64_t y : {0, 1, 2}) {
+      for (std::uint64_t x = 0; x < 3; ++x) {
+        for (std::uint64_t y = 0; y < 3; ++y) {
           const std::uint64_t corner = (std::uint64_t{1} << cells->x_shift) +
                                        (std::uint64_t{1} << cells->y_shift) + 1;
           const auto [first, last] =
@@ -295,8 +305,8 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
       const auto to = static_cast<std::size_t>(result.row_begin[i]);
       const auto size = static_cast<std::size_t>(result.row_begin[i + 1]) - to;
       std::copy_n(
-          rows.index.data() + begin_in_piece[i], size, &result.index[to]);
-      std::copy_n(rows.squared_distance.data() + begin_in_piece[i],
+          rows.index.get() + begin_in_piece[i], size, &result.index[to]);
+      std::copy_n(rows.squared_distance.get() + begin_in_piece[i],
                   size,
                   &result.squared_distance[to]);
     }

@@ -19,6 +19,7 @@
 
 namespace quatro {
 
+// The types a number of a file can have.
 enum class ScalarType {
   kInt8,
   kUint8,
@@ -38,6 +39,7 @@ std::size_t SizeOf(ScalarType type);
 // Reads SizeOf(type) bytes, aligned or not.
 double DecodeScalar(const char* bytes, ScalarType type, std::endian order);
 
+// Writes the number's bytes, the lowest first.
 void AppendLittleEndian(float value, std::string* bytes);
 void AppendLittleEndian(double value, std::string* bytes);
 

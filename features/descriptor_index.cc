@@ -74,7 +74,7 @@ std::vector<Boxes> EmptyBoxes(std::size_t num) {
 template <int kBytes>
 class Search {
  public:
-  // Looks into the nearest box.
+  // Looks into the nearest box, at its nearest tile first.
   QUATRO_SIMD_INLINE void Start(const DescriptorIndex::Parts& parts,
                                 const DescriptorQuery& query,
                                 bool any) {
@@ -99,7 +99,14 @@ class Search {
       nearest = least;
       nearest_box_ = k * kLanes + FirstOf(BitsNotAbove<kBytes>(sum, least));
     }
-    is_done_ = nearest == kInfinity || LookInto(parts, nearest_box_);
+    is_done_ = nearest == kInfinity;
+    if (is_done_) return;
+    ToBoxes(parts.tile_boxes[nearest_box_], sum);
+    const std::size_t nearest_tile =
+        FirstOf(BitsNotAbove<kBytes>(sum, LeastOf(sum)));
+    LookAt(parts.tiles[nearest_box_ * kLanes + nearest_tile]);
+    SetLeast(parts, std::min(least_, LeastOf(best_)));
+    is_done_ = LookInto(parts, nearest_box_);
   }
 
   // Which of 16 boxes may still hold a nearer one.

@@ -56,12 +56,14 @@ struct NearestDescriptor {
   std::int32_t index = std::numeric_limits<std::int32_t>::max();  // Of none.
 };
 
+// Whose nearest is looked for, and the nearest so far.
 struct DescriptorQuery {
   const float* descriptor;
   const float* coordinates;  // Along the axes of the index.
   NearestDescriptor best;
 };
 
+// Descriptors in boxes of (2), to be searched by bounds before distances.
 class DescriptorIndex {
  public:
   // All-zero descriptors, and those not finite, are left out.
@@ -83,15 +85,20 @@ class DescriptorIndex {
                   SimdLevel level,
                   std::span<DescriptorQuery> queries) const;
 
+  // Sixteen descriptors, side by side.
   struct Tile {
     FloatRow bins[kFpfhSize];
     FloatRow along[DescriptorAxes::kNumAxes];
     IntRow index;
   };
+
+  // The bounds of as many groups.
   struct Boxes {  // Sixteen, their corners along the axes.
     FloatRow low[DescriptorAxes::kNumAxes];
     FloatRow high[DescriptorAxes::kNumAxes];
   };
+
+  // All of them, and their boxes at two levels.
   struct Parts {
     float margin = 0.0f;
     std::vector<Tile> tiles;

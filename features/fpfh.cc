@@ -43,45 +43,36 @@ struct OrientedPoint {
 // The neighbours of one point that have a normal.
 struct Neighborhood {
   std::vector<float> x, y, z, nx, ny, nz;
-  std::vector<std::int32_t> index;
-  std::vector<float> squared_distance;
   std::vector<std::int32_t> bins;
-  std::vector<float> weights;
   std::size_t size = 0;
+  std::int32_t num_apart = 0;  // Those at some distance.
 
-  // All of them, or what the sum in (2) takes: which and how far.
-  template <bool kWithPoints>
   void Gather(const std::vector<OrientedPoint>& points,
               const Neighborhoods& neighborhoods,
               std::size_t i) {
     const auto begin = static_cast<std::size_t>(neighborhoods.row_begin[i]);
     const auto end = static_cast<std::size_t>(neighborhoods.row_begin[i + 1]);
     if (end - begin > x.size()) {
-      for (auto* floats :
-           {&x, &y, &z, &nx, &ny, &nz, &squared_distance, &weights}) {
+      for (auto* floats : {&x, &y, &z, &nx, &ny, &nz}) {
         floats->resize(end - begin);
       }
-      index.resize(end - begin);
       bins.resize(end - begin);
     }
-    std::size_t to = 0;
+    size = 0;
+    num_apart = 0;
     for (std::size_t k = begin; k < end; ++k) {
       const std::int32_t j = neighborhoods.index[k];
       const OrientedPoint& point = points[static_cast<std::size_t>(j)];
-      if constexpr (kWithPoints) {
-        x[to] = point.x;
-        y[to] = point.y;
-        z[to] = point.z;
-        nx[to] = point.nx;
-        ny[to] = point.ny;
-        nz[to] = point.nz;
-      } else {
-        index[to] = j;
-        squared_distance[to] = neighborhoods.squared_distance[k];
-      }
-      to += point.has_normal & (static_cast<std::size_t>(j) != i);
+      x[size] = point.x;
+      y[size] = point.y;
+      z[size] = point.z;
+      nx[size] = point.nx;
+      ny[size] = point.ny;
+      nz[size] = point.nz;
+      size += point.has_normal & (static_cast<std::size_t>(j) != i);
+      num_apart +=
+          point.has_normal & (neighborhoods.squared_distance[k] > 0.0f);
     }
-    size = to;
   }
 };
 
@@ -170,22 +161,18 @@ QUATRO_SIMD_CLONES void FindBins(const OrientedPoint& own,
   }
 }
 
-// 1 / distance, and 0 for points at no distance. Returns how many those are.
-QUATRO_SIMD_CLONES std::int32_t FindWeights(
-    const float* __restrict squared_distance,
-    std::size_t size,
-    float* __restrict weights) {
-  std::int32_t num_coincident = 0;
+// 1 / distance, and 0 for points at no distance.
+QUATRO_SIMD_CLONES void FindWeights(const float* __restrict squared_distance,
+                                    std::size_t size,
+                                    float* __restrict weights) {
   for (std::size_t k = 0; k < size; ++k) {
     const bool is_apart = squared_distance[k] > 0.0f;
     const float divisor = std::sqrt(is_apart ? squared_distance[k] : 1.0f);
     weights[k] = is_apart ? 1.0f / divisor : 0.0f;
-    num_coincident += is_apart ? 0 : 1;
   }
-  return num_coincident;
 }
 
-// The sum in (2).
+// The sum in (2). Points without a normal have an SPFH of zero.
 QUATRO_SIMD_CLONES void AddUp(const Histogram* spfh,
                               const std::int32_t* index,
                               const float* weights,
@@ -292,13 +279,14 @@ Fpfh ComputeFpfh(const PointsRef& points,
   }
 
   std::vector<Histogram> spfh(static_cast<std::size_t>(n));
+  std::vector<std::int32_t> num_summed(static_cast<std::size_t>(n));
   ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
     Neighborhood around;
     for (auto i = static_cast<std::size_t>(begin);
          i < static_cast<std::size_t>(end);
          ++i) {
       if (!oriented[i].has_normal) continue;
-      around.Gather<true>(oriented, neighborhoods, i);
+      around.Gather(oriented, neighborhoods, i);
       FindBins(oriented[i],
                around.x.data(),
                around.y.data(),
@@ -309,26 +297,30 @@ Fpfh ComputeFpfh(const PointsRef& points,
                around.size,
                around.bins.data());
       spfh[i] = CountBins(around.bins, around.size);
+      num_summed[i] = around.num_apart;
     }
   });
 
   ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
-    Neighborhood around;
+    std::vector<float> weights;
     for (auto i = static_cast<std::size_t>(begin);
          i < static_cast<std::size_t>(end);
          ++i) {
       if (!oriented[i].has_normal) continue;
       // Equation (2).
-      around.Gather<false>(oriented, neighborhoods, i);
-      const std::int32_t num_coincident = FindWeights(
-          around.squared_distance.data(), around.size, around.weights.data());
-      const auto num = static_cast<std::int32_t>(around.size) - num_coincident;
+      const auto row = static_cast<std::size_t>(neighborhoods.row_begin[i]);
+      const auto size =
+          static_cast<std::size_t>(neighborhoods.row_begin[i + 1]) - row;
+      weights.resize(std::max(weights.size(), size));
+      FindWeights(
+          neighborhoods.squared_distance.data() + row, size, weights.data());
       Histogram sum;
       AddUp(spfh.data(),
-            around.index.data(),
-            around.weights.data(),
-            around.size,
+            neighborhoods.index.data() + row,
+            weights.data(),
+            size,
             &sum);
+      const std::int32_t num = num_summed[i];
       for (int part = 0; part < 3; ++part) {
         for (int bin = 0; bin < kFpfhBinsPerPart; ++bin) {
           float& mean = sum.part[part][bin];

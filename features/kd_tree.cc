@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <nanoflann.hpp>
+#include <optional>
 #include <utility>
 
 #include "features/cell_neighborhoods.h"
@@ -41,6 +42,31 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<
 
 constexpr std::size_t kLeafSize = 16;
 
+// nanoflann keeps distances < limit, and prunes by sums that round otherwise
+// than the distances; closed balls are promised here.
+double LimitOf(double squared_radius) {
+  constexpr double kPruningError = 1e-12;
+  return std::nextafter(squared_radius * (1.0 + kPruningError),
+                        std::numeric_limits<double>::infinity());
+}
+
+// What nanoflann adds to: keeps the nearest of those below `limit`.
+struct NearestBelow {
+  double limit;
+  std::optional<std::uint32_t> index;
+
+  bool addPoint(double squared_distance, std::uint32_t i) {
+    if (squared_distance < limit) {
+      limit = squared_distance;
+      index = i;
+    }
+    return true;
+  }
+  double worstDist() const { return limit; }
+  bool full() const { return true; }
+  std::size_t size() const { return index ? 1 : 0; }
+};
+
 }  // namespace
 
 struct KdTree::Index {
@@ -63,15 +89,11 @@ KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 std::vector<Neighbor> KdTree::WithinRadius(const Eigen::Vector3d& query,
                                            double radius) const {
   std::vector<std::pair<std::uint32_t, double>> found;
-  // nanoflann keeps distances < limit, and prunes by sums that round otherwise
-  // than the distances; the closed ball is promised here.
-  constexpr double kPruningError = 1e-12;
   const double squared_radius = radius * radius;
-  const double limit = std::nextafter(squared_radius * (1.0 + kPruningError),
-                                      std::numeric_limits<double>::infinity());
   nanoflann::SearchParams params;
   params.sorted = false;
-  index_->tree.radiusSearch(query.data(), limit, found, params);
+  index_->tree.radiusSearch(
+      query.data(), LimitOf(squared_radius), found, params);
   std::sort(found.begin(), found.end());
   std::vector<Neighbor> neighbors;
   neighbors.reserve(found.size());
@@ -103,6 +125,15 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
     neighbors.push_back({indices[i], d2[i]});
   }
   return neighbors;
+}
+
+std::optional<Neighbor> KdTree::NearestWithin(const Eigen::Vector3d& query,
+                                              double radius) const {
+  const double squared_radius = radius * radius;
+  NearestBelow nearest{LimitOf(squared_radius), std::nullopt};
+  index_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
+  if (!nearest.index || nearest.limit > squared_radius) return std::nullopt;
+  return Neighbor{*nearest.index, nearest.limit};
 }
 
 Neighborhoods FindNeighborhoods(const KdTree& tree,

@@ -8,12 +8,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "features/types.h"
 
 namespace quatro {
 
+// A point of the tree, as seen from a query.
 struct Neighbor {
   Eigen::Index index = 0;
   double squared_distance = 0.0;  // [m^2]
@@ -23,11 +25,13 @@ struct Neighbor {
 // called from several threads.
 class KdTree {
  public:
+  // Of these points; it can be moved, not copied.
   explicit KdTree(Points points);
   ~KdTree();
   KdTree(KdTree&&) noexcept;
   KdTree& operator=(KdTree&&) noexcept;
 
+  // The copy.
   const Points& points() const { return *points_; }
 
   // All points no further than `radius` [m], in ascending order of index.
@@ -36,6 +40,11 @@ class KdTree {
 
   // The `k` nearest, nearest first; fewer if the tree holds fewer.
   std::vector<Neighbor> Nearest(const Eigen::Vector3d& query, int k) const;
+
+  // The nearest no further than `radius` [m]. Faster than Nearest() where there
+  // is none.
+  std::optional<Neighbor> NearestWithin(const Eigen::Vector3d& query,
+                                        double radius) const;
 
  private:
   struct Index;
@@ -51,11 +60,13 @@ struct Neighborhoods {
   std::vector<std::int32_t> index;
   std::vector<float> squared_distance;  // [m^2]
 
+  // How many points have a row.
   Eigen::Index size() const {
     return static_cast<Eigen::Index>(row_begin.size()) - 1;
   }
 };
 
+// Of each point of the tree, those within `radius` [m].
 Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);

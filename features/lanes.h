@@ -18,8 +18,10 @@ namespace quatro {
 
 constexpr int kLanes = 16;
 
+// Registers of kBytes, and how many of them hold sixteen numbers.
 template <int kBytes>
 struct Lanes {
+  // A register of each type.
   typedef float Float __attribute__((vector_size(kBytes), may_alias));
   typedef std::int32_t Int __attribute__((vector_size(kBytes), may_alias));
   typedef double Double __attribute__((vector_size(kBytes), may_alias));
@@ -36,12 +38,15 @@ struct alignas(64) IntRow {
   std::int32_t lane[kLanes];
 };
 
+// One register's worth of a row.
 template <int kBytes>
 QUATRO_SIMD_INLINE const typename Lanes<kBytes>::Float& Piece(
     const FloatRow& row, int piece) {
   return reinterpret_cast<const typename Lanes<kBytes>::Float*>(
       row.lane)[piece];
 }
+
+// One register's worth of a row.
 template <int kBytes>
 QUATRO_SIMD_INLINE const typename Lanes<kBytes>::Int& Piece(const IntRow& row,
                                                             int piece) {
@@ -62,6 +67,7 @@ QUATRO_SIMD_INLINE void Halve(const typename Lanes<kBytes>::Int& x,
   }
 }
 
+// All lanes, bit by bit.
 template <int kBytes>
 QUATRO_SIMD_INLINE std::int32_t OrOf(const typename Lanes<kBytes>::Int& x) {
   if constexpr (kBytes > 16) {
@@ -75,6 +81,7 @@ QUATRO_SIMD_INLINE std::int32_t OrOf(const typename Lanes<kBytes>::Int& x) {
   }
 }
 
+// The least of all lanes.
 template <int kBytes>
 QUATRO_SIMD_INLINE std::int32_t MinOf(const typename Lanes<kBytes>::Int& x) {
   if constexpr (kBytes > 16) {

@@ -19,9 +19,12 @@
 
 namespace quatro {
 
+// Columns of the two clouds that belong together.
 struct Match {
   std::int32_t source = 0;
   std::int32_t target = 0;
+
+  // Equal where both columns are.
   friend bool operator==(const Match&, const Match&) = default;
 };
 

@@ -4,6 +4,11 @@
 #include "features/normals.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "features/parallel.h"
 
@@ -12,6 +17,29 @@ namespace {
 
 // Second eigenvalue over the largest, below which the points are on a line.
 constexpr double kMinPlanarity = 1e-6;
+
+// Of these points about their mean. By moments about point i, so that large
+// coordinates cancel.
+Eigen::Matrix3d ScatterOf(const PointsRef& points,
+                          Eigen::Index i,
+                          std::span<const std::int32_t> near) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();   // xx, yy, zz
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();  // xy, yz, zx
+  const Eigen::Vector3d center = points.col(i);
+  for (const std::int32_t j : near) {
+    const Eigen::Vector3d offset = points.col(j) - center;
+    sum += offset;
+    squares += offset.cwiseProduct(offset);
+    products += offset.cwiseProduct(
+        Eigen::Vector3d(offset.y(), offset.z(), offset.x()));
+  }
+  Eigen::Matrix3d scatter;
+  scatter << squares[0], products[0], products[2],  //
+      products[0], squares[1], products[1],         //
+      products[2], products[1], squares[2];
+  return scatter - sum * sum.transpose() / static_cast<double>(near.size());
+}
 
 }  // namespace
 
@@ -22,26 +50,20 @@ Points EstimateNormals(const PointsRef& points,
                        int num_threads) {
   Points normals = Points::Zero(3, points.cols());
   const auto limit = static_cast<float>(radius * radius);
-  const auto estimate = [&](Eigen::Index i) {
-    // Moments about the point itself, so that large coordinates cancel.
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    int count = 0;
+  const auto estimate = [&](Eigen::Index i, std::vector<std::int32_t>* near) {
     const auto row = static_cast<std::size_t>(i);
-    const auto row_end =
-        static_cast<std::size_t>(neighborhoods.row_begin[row + 1]);
-    for (auto k = static_cast<std::size_t>(neighborhoods.row_begin[row]);
-         k < row_end;
-         ++k) {
-      if (neighborhoods.squared_distance[k] > limit) continue;
-      const Eigen::Vector3d offset =
-          points.col(neighborhoods.index[k]) - points.col(i);
-      sum += offset;
-      squares.noalias() += offset * offset.transpose();
-      ++count;
+    const auto begin = static_cast<std::size_t>(neighborhoods.row_begin[row]);
+    const auto end = static_cast<std::size_t>(neighborhoods.row_begin[row + 1]);
+    // Without a branch, which would be taken at random.
+    near->resize(std::max(near->size(), end - begin));
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      (*near)[count] = neighborhoods.index[k];
+      count += neighborhoods.squared_distance[k] <= limit ? 1 : 0;
     }
     if (count < 3) return;
-    const Eigen::Matrix3d scatter = squares - sum * sum.transpose() / count;
+    const Eigen::Matrix3d scatter =
+        ScatterOf(points, i, std::span(near->data(), count));
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(scatter);
     if (!(solver.eigenvalues()[1] > kMinPlanarity * solver.eigenvalues()[2])) {
@@ -55,7 +77,8 @@ Points EstimateNormals(const PointsRef& points,
               points.cols(),
               256,
               [&](Eigen::Index begin, Eigen::Index end) {
-                for (Eigen::Index i = begin; i < end; ++i) estimate(i);
+                std::vector<std::int32_t> near;
+                for (Eigen::Index i = begin; i < end; ++i) estimate(i, &near);
               });
   return normals;
 }

@@ -15,6 +15,7 @@
 
 namespace quatro {
 
+// One field of a point.
 struct PcdField {
   std::string_view name;  // "_" is padding.
   ScalarType type;
@@ -22,6 +23,7 @@ struct PcdField {
   std::uint64_t offset = 0;  // In a row [bytes].
 };
 
+// What a PCD file holds, and how.
 struct PcdHeader {
   std::vector<PcdField> fields;
   std::uint64_t row_size = 0;  // [bytes], below 2^32.

@@ -15,18 +15,21 @@
 
 namespace quatro {
 
+// One number, or one list of them, of a row.
 struct PlyProperty {
   std::string_view name;
   ScalarType type;
   std::optional<ScalarType> length_type;  // Of a list.
 };
 
+// Rows of the same properties.
 struct PlyElement {
   std::string_view name;
   std::uint64_t num_rows = 0;
   std::vector<PlyProperty> properties;
 };
 
+// What a PLY file holds, and how.
 struct PlyHeader {
   // One of "ascii", "binary_little_endian", "binary_big_endian".
   std::string_view format;

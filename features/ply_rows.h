@@ -24,8 +24,10 @@
 
 namespace quatro {
 
+// Rows as bytes in the given order.
 class BinaryPlyRows {
  public:
+  // `bytes` must outlive this.
   BinaryPlyRows(std::string_view bytes, std::endian order)
       : bytes_(bytes), order_(order) {}
 
@@ -76,6 +78,7 @@ class BinaryPlyRows {
 // One line a row.
 class TextPlyRows {
  public:
+  // `text` must outlive this.
   explicit TextPlyRows(std::string_view text)
       : text_(text), num_lines_(CountLines(text)) {}
 

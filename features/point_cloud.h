@@ -11,6 +11,7 @@
 
 namespace quatro {
 
+// The points of one scan, in the frame of its file.
 struct PointCloud {
   Points points;              // [m], all finite.
   Eigen::VectorXf intensity;  // Empty, or one number per point.

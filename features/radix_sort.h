@@ -14,6 +14,7 @@
 
 namespace quatro {
 
+// A number and what it is sorted by.
 struct KeyedIndex {
   std::uint64_t key;
   std::int32_t index;

@@ -13,6 +13,7 @@
 
 namespace quatro {
 
+// One step of SplitMix64: scrambles 64 bits.
 inline std::uint64_t Mix(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -20,11 +21,17 @@ inline std::uint64_t Mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
+// Numbers of a seed, one after another.
 class Random {
  public:
+  // The same seed gives the same numbers.
   explicit Random(std::uint64_t seed) : state_(Mix(seed)) {}
 
+  // The next 64 bits.
   std::uint64_t Next() { return Mix(state_++); }
+
+  // As if so many had been drawn.
+  void Skip(std::uint64_t num_draws) { state_ += num_draws; }
 
   // Uniform in [0, n), n >= 1. The bias is below n / 2^64.
   std::uint64_t Below(std::uint64_t n) {

@@ -31,6 +31,7 @@
 
 namespace quatro {
 
+// What counts as an edge or a plane, and how many are wanted.
 struct RingFeatureOptions {
   int num_sectors = 6;
   int max_sharp = 2;        // A sector.
@@ -57,10 +58,12 @@ struct RingPoints {
   std::vector<int> ring;  // 0 is the top.
 };
 
+// The four kinds.
 struct RingFeatures {
   RingPoints sharp, less_sharp, flat, less_flat;
 };
 
+// Those of all rings, by (1). `points` in the frame of the sensor.
 RingFeatures FindRingFeatures(const PointsRef& points,
                               const ScanRings& rings,
                               const RingFeatureOptions& options);

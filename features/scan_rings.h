@@ -27,12 +27,14 @@
 
 namespace quatro {
 
+// By what the rings were told apart.
 enum class RingSource {
   kNone,  // Neither way: a merged, sampled or tiny cloud.
   kOrder,
   kElevation,
 };
 
+// The rings of a scan, as columns of its cloud.
 struct ScanRings {
   RingSource source = RingSource::kNone;
 

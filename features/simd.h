@@ -17,8 +17,16 @@
 // The sanitizers' start-up comes after the choice, which they would break. They
 // pass these loops over: arithmetic on arrays of constant sizes, which they
 // would slow down twentyfold.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define QUATRO_SIMD_CLONES __attribute__((no_sanitize("address,undefined")))
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define QUATRO_NO_SANITIZE __attribute__((no_sanitize("address", "undefined")))
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define QUATRO_NO_SANITIZE __attribute__((no_sanitize("address", "undefined")))
+#endif
+
+#if defined(QUATRO_NO_SANITIZE)
+#define QUATRO_SIMD_CLONES QUATRO_NO_SANITIZE
 #elif defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
 #define QUATRO_SIMD_CLONES \
   __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
@@ -27,9 +35,9 @@
 #endif
 
 // A part of such a function. Inlined into each of its clones.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(QUATRO_NO_SANITIZE)
 #define QUATRO_SIMD_INLINE \
-  inline __attribute__((always_inline, no_sanitize("address,undefined")))
+  inline __attribute__((always_inline)) QUATRO_NO_SANITIZE
 #else
 #define QUATRO_SIMD_INLINE inline __attribute__((always_inline))
 #endif
@@ -45,6 +53,7 @@
 
 namespace quatro {
 
+// Instruction sets, each with all of those before it.
 enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
 
 // What this machine and this build have.

@@ -10,11 +10,13 @@
 
 namespace quatro {
 
+// A stage, and how long it took.
 struct StageTime {
   std::string stage;
   double seconds = 0.0;
 };
 
+// Laps on the steady clock.
 class Stopwatch {
  public:
   // The time since the last lap, or since the start.

@@ -3,8 +3,11 @@
 
 #include "features/tuple_test.h"
 
+#include <atomic>
+#include <cstddef>
 #include <sstream>
 
+#include "features/parallel.h"
 #include "features/random.h"
 
 namespace quatro {
@@ -19,6 +22,8 @@ bool TupleTestOptions::IsValid(std::string* error) const {
   } else if (max_num_triples < 0) {
     problem << "tuple_test.max_num_triples = " << max_num_triples
             << ", must be >= 0";
+  } else if (num_threads < 0) {
+    problem << "tuple_test.num_threads = " << num_threads << ", must be >= 0";
   }
   *error = problem.str();
   return error->empty();
@@ -44,30 +49,48 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
     // Equation (1), squared.
     const double p2 = (ends[a].source - ends[b].source).squaredNorm();
     const double q2 = (ends[a].target - ends[b].target).squaredNorm();
-    return s2 * q2 < p2 && s2 * p2 < q2;
+    // Without a branch in between, which would be taken at random.
+    return bool((s2 * q2 < p2) & (s2 * p2 < q2));
   };
 
-  std::vector<bool> passes(n, false);
-  std::int64_t num_passed = 0;
-  Random random(options.seed);
-  const std::size_t num_triples =
-      n * static_cast<std::size_t>(options.num_triples_per_match);
-  for (std::size_t triple = 0; triple < num_triples; ++triple) {
-    const std::size_t a = random.Below(n);
-    const std::size_t b = random.Below(n);
-    const std::size_t c = random.Below(n);
-    // Nothing new, but to the count.
-    if (options.max_num_triples == 0 && passes[a] && passes[b] && passes[c]) {
-      continue;
+  // Only ever set, and so in whatever order.
+  std::vector<std::atomic<bool>> passes(n);
+  const auto has_passed = [&](std::size_t i) {
+    return passes[i].load(std::memory_order_relaxed);
+  };
+  const bool is_counted = options.max_num_triples > 0;
+  const auto test = [&](Eigen::Index begin, Eigen::Index end) {
+    Random random(options.seed);
+    random.Skip(3 * static_cast<std::uint64_t>(begin));
+    std::int64_t num_passed = 0;
+    for (Eigen::Index triple = begin; triple < end; ++triple) {
+      const std::size_t a = random.Below(n);
+      const std::size_t b = random.Below(n);
+      const std::size_t c = random.Below(n);
+      // Nothing new, but to the count.
+      if (!is_counted && has_passed(a) && has_passed(b) && has_passed(c)) {
+        continue;
+      }
+      if (sides_agree(a, b) && sides_agree(b, c) && sides_agree(c, a)) {
+        for (const std::size_t i : {a, b, c}) {
+          passes[i].store(true, std::memory_order_relaxed);
+        }
+        if (++num_passed == options.max_num_triples) break;
+      }
     }
-    if (sides_agree(a, b) && sides_agree(b, c) && sides_agree(c, a)) {
-      passes[a] = passes[b] = passes[c] = true;
-      if (++num_passed == options.max_num_triples) break;
-    }
-  }
+  };
+  const auto num_triples =
+      static_cast<Eigen::Index>(n) *
+      static_cast<Eigen::Index>(options.num_triples_per_match);
+  constexpr Eigen::Index kPiece = 4096;
+  ParallelFor(options.num_threads,
+              num_triples,
+              is_counted ? num_triples : kPiece,
+              test);
+
   std::vector<Match> kept;
   for (std::size_t i = 0; i < n; ++i) {
-    if (passes[i]) kept.push_back(matches[i]);
+    if (has_passed(i)) kept.push_back(matches[i]);
   }
   return kept;
 }

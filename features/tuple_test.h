@@ -19,6 +19,7 @@
 
 namespace quatro {
 
+// How strict (1) is, and how many triples are tried.
 struct TupleTestOptions {
   double scale = 0.95;  // s in (1), in (0, 1).
   int num_triples_per_match = 100;
@@ -29,6 +30,10 @@ struct TupleTestOptions {
   std::int64_t max_num_triples = 0;
 
   std::uint64_t seed = 0;
+
+  // 0: one per core. The answer is the same for any number; where triples are
+  // counted, one does all.
+  int num_threads = 1;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

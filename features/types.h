@@ -12,10 +12,14 @@ namespace quatro {
 // One point per column [m]. Functions take `const PointsRef&`, which binds to a
 // matrix, a Map or a block of columns without copying.
 using Points = Eigen::Matrix3Xd;
+
+// See Points.
 using PointsRef = Eigen::Ref<const Points>;
 
 // One number >= 0 per point.
 using Weights = Eigen::VectorXd;
+
+// See Weights.
 using WeightsRef = Eigen::Ref<const Weights>;
 
 }  // namespace quatro

@@ -28,14 +28,20 @@
 
 namespace quatro {
 
+// Where a point falls in the image, by (1).
 struct SphericalImage {
   int width = 720;
   int height = 64;
   double top = 0.05;      // Elevation of the upper edge [rad].
   double bottom = -0.43;  // Of the lower edge [rad].
 
+  // Pixels.
   Eigen::Index size() const { return Eigen::Index{width} * height; }
-  double PixelWidth() const { return 2.0 * M_PI / width; }        // [rad]
+
+  // Of one pixel in azimuth.
+  double PixelWidth() const { return 2.0 * M_PI / width; }  // [rad]
+
+  // Of one pixel in elevation.
   double PixelHeight() const { return (top - bottom) / height; }  // [rad]
 
   // Equation (1). The index v width + u, or -1 outside the image and for the
@@ -56,19 +62,25 @@ std::optional<SphericalImage> FitImage(const PointsRef& points,
                                        int width,
                                        int height);
 
+// A scan by pixels: points, and normals where they are known.
 struct VertexMap {
   SphericalImage image;
   Points vertices;  // By pixel [m]; zero where there is none.
   Points normals;   // Unit, towards the sensor; zero where there is none.
 
+  // Whether anything was seen there.
   bool HasVertex(Eigen::Index pixel) const {
     return !vertices.col(pixel).isZero(0.0);
   }
+
+  // Whether the surface there is known.
   bool HasNormal(Eigen::Index pixel) const {
     return !normals.col(pixel).isZero(0.0);
   }
 };
 
+// Of `points` in the sensor's frame; those nearer than `min_range` [m] are left
+// out.
 VertexMap MakeVertexMap(const PointsRef& points,
                         const SphericalImage& image,
                         double min_range,

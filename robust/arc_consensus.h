@@ -26,6 +26,7 @@
 
 namespace quatro {
 
+// How far a match may be off, and how many pairs are drawn.
 struct ArcConsensusOptions {
   double noise_bound = 0.3;  // How far a right match may be off [m].
   double max_tilt = 0.035;   // Between the scans, widens the height gate [rad].

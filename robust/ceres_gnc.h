@@ -70,6 +70,7 @@
 
 namespace quatro {
 
+// The loss, the loop, and the bound of each block.
 struct CeresGncOptions {
   SurrogateType surrogate = SurrogateType::kTruncatedLeastSquares;
 
@@ -98,8 +99,10 @@ struct CeresGncOptions {
   bool IsValid(std::string* error) const;
 };
 
+// Only candidates are weighted.
 enum class GncRole { kCandidate, kKnownInlier, kKnownOutlier };
 
+// What became of a residual block.
 struct GncBlock {
   GncRole role = GncRole::kKnownInlier;
   double weight = 1.0;            // That the answer was solved with.
@@ -107,6 +110,7 @@ struct GncBlock {
   double squared_residual = 0.0;  // rho_i / c_i^2, of candidates.
 };
 
+// How the loop ended, and every block's part in it.
 struct CeresGncSummary {
   GncTermination termination = GncTermination::kInvalidOptions;
   std::string message = "SolveCeresGnc was not called";
@@ -136,6 +140,8 @@ struct CeresGncSummary {
   std::string FullReport() const;   // And the trace.
 };
 
+// Starts from the values in the problem and leaves the answer there, if there
+// is one.
 CeresGncSummary SolveCeresGnc(ceres::Problem* problem,
                               const CeresGncOptions& options);
 

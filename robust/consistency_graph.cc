@@ -12,88 +12,19 @@
 
 #include "features/parallel.h"
 #include "features/simd.h"
+#include "robust/pair_tests.h"
 
 namespace quatro {
 namespace {
 
-constexpr std::size_t kLanes = Graph::kWordBits;
+// Blocks of so many squared are tested by one thread at a time, so that the
+// words it writes for one row are next to each other.
+constexpr std::size_t kBlocksAtOnce = 8;
 
-// Coordinates of one word's worth of matches.
-struct Block {
-  float px[kLanes], py[kLanes], pz[kLanes];
-  float qx[kLanes], qy[kLanes], qz[kLanes];
-};
-
-struct Limits {
-  float bound = 0.0f;
-  float sin_tilt = 0.0f;
-};
-
-// Which of the lanes of `block` are consistent with lane `i` of `own`.
-template <ConsistencyTest kTest>
-QUATRO_SIMD_INLINE Graph::Word TestBlock(const Block& own,
-                                         std::size_t i,
-                                         const Block& block,
-                                         const Limits& limits) {
-  unsigned char passes[kLanes];
-  for (std::size_t j = 0; j < kLanes; ++j) {
-    const float ax = block.px[j] - own.px[i];
-    const float ay = block.py[j] - own.py[i];
-    const float az = block.pz[j] - own.pz[i];
-    const float bx = block.qx[j] - own.qx[i];
-    const float by = block.qy[j] - own.qy[i];
-    const float bz = block.qz[j] - own.qz[i];
-    float a2 = ax * ax + ay * ay;
-    float b2 = bx * bx + by * by;
-    if constexpr (kTest == ConsistencyTest::kLength) {
-      a2 += az * az;
-      b2 += bz * bz;
-    }
-    const float a = std::sqrt(a2);
-    const float b = std::sqrt(b2);
-    bool is_consistent = std::abs(a - b) <= limits.bound;
-    if constexpr (kTest == ConsistencyTest::kPlanarAndHeight) {
-      const float longer = a > b ? a : b;
-      is_consistent &=
-          std::abs(az - bz) <= limits.bound + longer * limits.sin_tilt;
-    }
-    passes[j] = is_consistent;
-  }
-  Graph::Word word = 0;
-  for (std::size_t j = 0; j < kLanes; ++j) {
-    word |= static_cast<Graph::Word>(passes[j]) << j;
-  }
-  return word;
-}
-
-QUATRO_SIMD_CLONES void TestRow(ConsistencyTest test,
-                                const Block* blocks,
-                                std::size_t num_blocks,
-                                std::size_t i,
-                                const Limits& limits,
-                                Graph::Word* row) {
-  const Block& own = blocks[i / kLanes];
-  const std::size_t lane = i % kLanes;
-  switch (test) {
-    case ConsistencyTest::kLength:
-      for (std::size_t k = 0; k < num_blocks; ++k) {
-        row[k] =
-            TestBlock<ConsistencyTest::kLength>(own, lane, blocks[k], limits);
-      }
-      break;
-    case ConsistencyTest::kPlanar:
-      for (std::size_t k = 0; k < num_blocks; ++k) {
-        row[k] =
-            TestBlock<ConsistencyTest::kPlanar>(own, lane, blocks[k], limits);
-      }
-      break;
-    case ConsistencyTest::kPlanarAndHeight:
-      for (std::size_t k = 0; k < num_blocks; ++k) {
-        row[k] = TestBlock<ConsistencyTest::kPlanarAndHeight>(
-            own, lane, blocks[k], limits);
-      }
-      break;
-  }
+QUATRO_SIMD_CLONES int CountBits(const Graph::Word* words, std::size_t num) {
+  int count = 0;
+  for (std::size_t k = 0; k < num; ++k) count += std::popcount(words[k]);
+  return count;
 }
 
 // Of each axis: where most points are, wherever a few outliers may be.
@@ -109,6 +40,11 @@ Eigen::Vector3d Median(const PointsRef& points) {
 }
 
 }  // namespace
+
+int Graph::Degree(int i) const {
+  const auto row = Row(i);
+  return CountBits(row.data(), row.size());
+}
 
 bool ConsistencyOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
@@ -131,42 +67,65 @@ Graph BuildConsistencyGraph(const PointsRef& source,
   Graph graph(static_cast<int>(n));
   if (n == 0) return graph;
 
-  const Eigen::Matrix3Xf p = (source.colwise() - Median(source)).cast<float>();
-  const Eigen::Matrix3Xf q = (target.colwise() - Median(target)).cast<float>();
-  const auto num_blocks =
-      static_cast<std::size_t>((n + Graph::kWordBits - 1) / Graph::kWordBits);
-  std::vector<Block> blocks(num_blocks);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    Block& block = blocks[static_cast<std::size_t>(i) / kLanes];
-    const std::size_t lane = static_cast<std::size_t>(i) % kLanes;
-    block.px[lane] = p(0, i);
-    block.py[lane] = p(1, i);
-    block.pz[lane] = p(2, i);
-    block.qx[lane] = q(0, i);
-    block.qy[lane] = q(1, i);
-    block.qz[lane] = q(2, i);
-  }
-  const Limits limits{static_cast<float>(options.bound),
-                      static_cast<float>(std::sin(options.max_tilt))};
-  // The lanes of the last block that hold no match.
-  const Graph::Word tail = n % Graph::kWordBits == 0
-                               ? ~Graph::Word{0}
-                               : (Graph::Word{1} << (n % Graph::kWordBits)) - 1;
+  const double scale = 1.0 / options.bound;
+  const Eigen::Matrix3Xf p =
+      ((source.colwise() - Median(source)) * scale).cast<float>();
+  const Eigen::Matrix3Xf q =
+      ((target.colwise() - Median(target)) * scale).cast<float>();
+  const std::vector<PairBlock> blocks = MakePairBlocks(p, q);
+  const auto sin_tilt = static_cast<float>(std::sin(options.max_tilt));
+  const SimdLevel level = BestSimdLevel();
 
-  ParallelFor(num_threads, n, 64, [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      const auto row = graph.MutableRow(static_cast<int>(i));
-      TestRow(options.test,
-              blocks.data(),
-              num_blocks,
-              static_cast<std::size_t>(i),
-              limits,
-              row.data());
-      row.back() &= tail;
-      row[static_cast<std::size_t>(i) / kLanes] &=
-          ~(Graph::Word{1} << (i % Graph::kWordBits));
+  const auto set_words =
+      [&](std::size_t i, std::size_t k, const PairBits& bits) {
+        const std::size_t begin = i * kPairBlockSize;
+        const std::size_t end =
+            std::min(begin + kPairBlockSize, static_cast<std::size_t>(n));
+        for (std::size_t row = begin; row < end; ++row) {
+          graph.MutableRow(static_cast<int>(row))[k] = bits.row[row - begin];
+        }
+      };
+  const auto test = [&](std::size_t i, std::size_t k) {
+    PairBits bits =
+        TestPairBlocks(options.test, blocks[i], blocks[k], sin_tilt, level);
+    if (i == k) {
+      for (std::size_t row = 0; row < kPairBlockSize; ++row) {
+        bits.row[row] &= ~(Graph::Word{1} << row);
+      }
+    } else {
+      set_words(k, i, Transposed(bits));
     }
-  });
+    set_words(i, k, bits);
+  };
+
+  // Squares of blocks on and right of the diagonal.
+  const std::size_t num_squares =
+      (blocks.size() + kBlocksAtOnce - 1) / kBlocksAtOnce;
+  std::vector<std::array<std::size_t, 2>> squares;
+  for (std::size_t i = 0; i < num_squares; ++i) {
+    for (std::size_t k = i; k < num_squares; ++k) squares.push_back({i, k});
+  }
+  const auto test_square = [&](const std::array<std::size_t, 2>& square) {
+    const auto [first_i, first_k] = square;
+    const auto end_of = [&](std::size_t first) {
+      return std::min((first + 1) * kBlocksAtOnce, blocks.size());
+    };
+    for (std::size_t i = first_i * kBlocksAtOnce; i < end_of(first_i); ++i) {
+      for (std::size_t k = std::max(i, first_k * kBlocksAtOnce);
+           k < end_of(first_k);
+           ++k) {
+        test(i, k);
+      }
+    }
+  };
+  ParallelFor(num_threads,
+              static_cast<Eigen::Index>(squares.size()),
+              1,
+              [&](Eigen::Index begin, Eigen::Index end) {
+                for (Eigen::Index s = begin; s < end; ++s) {
+                  test_square(squares[static_cast<std::size_t>(s)]);
+                }
+              });
   return graph;
 }
 

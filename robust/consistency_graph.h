@@ -26,47 +26,54 @@
 #include <vector>
 
 #include "features/types.h"
+#include "features/zeroed_allocator.h"
 
 namespace quatro {
 
 // An undirected graph without loops.
 class Graph {
  public:
+  // Sixty-four edges.
   using Word = std::uint64_t;
   static constexpr int kWordBits = 64;
 
+  // Without edges.
   explicit Graph(int num_vertices)
       : num_vertices_(num_vertices),
         words_per_row_((num_vertices + kWordBits - 1) / kWordBits),
         rows_(static_cast<std::size_t>(num_vertices) *
               static_cast<std::size_t>(words_per_row_)) {}
 
+  // Of which vertices are numbered from 0.
   int num_vertices() const { return num_vertices_; }
 
+  // The edges of vertex i, a bit each.
   std::span<const Word> Row(int i) const {
     return {rows_.data() + RowBegin(i),
             static_cast<std::size_t>(words_per_row_)};
   }
+
+  // The same to be written; who writes keeps it symmetric.
   std::span<Word> MutableRow(int i) {
     return {rows_.data() + RowBegin(i),
             static_cast<std::size_t>(words_per_row_)};
   }
 
+  // Whether i and j are consistent.
   bool HasEdge(int i, int j) const {
     return (Row(i)[static_cast<std::size_t>(j / kWordBits)] >>
             (j % kWordBits)) &
            1u;
   }
+
+  // In both rows.
   void AddEdge(int i, int j) {
     SetBit(i, j);
     SetBit(j, i);
   }
 
-  int Degree(int i) const {
-    int degree = 0;
-    for (const Word word : Row(i)) degree += std::popcount(word);
-    return degree;
-  }
+  // How many edges vertex i has.
+  int Degree(int i) const;
 
   // Calls visit(j) for each neighbour j of i, in ascending order.
   template <typename Visit>
@@ -75,6 +82,20 @@ class Graph {
     for (Word word : Row(i)) {
       for (; word != 0; word &= word - 1) visit(base + std::countr_zero(word));
       base += kWordBits;
+    }
+  }
+
+  // The same for those whose bit is set in `among`, as long as a row.
+  template <typename Visit>
+  void ForEachNeighborAmong(int i,
+                            std::span<const Word> among,
+                            const Visit& visit) const {
+    const auto row = Row(i);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const int base = static_cast<int>(k) * kWordBits;
+      for (Word word = row[k] & among[k]; word != 0; word &= word - 1) {
+        visit(base + std::countr_zero(word));
+      }
     }
   }
 
@@ -90,11 +111,13 @@ class Graph {
 
   int num_vertices_;
   int words_per_row_;
-  std::vector<Word> rows_;
+  std::vector<Word, ZeroedAllocator<Word>> rows_;
 };
 
+// What two matches must agree in.
 enum class ConsistencyTest { kLength, kPlanar, kPlanarAndHeight };
 
+// The test, and how far a pair may miss it.
 struct ConsistencyOptions {
   ConsistencyTest test = ConsistencyTest::kLength;
   double bound = 0.6;       // [m], both points of a pair may be off.

@@ -31,11 +31,13 @@ double CrosscheckDifference(const So3& subproblem,
                             const WeightsRef& weights,
                             const RotationEstimate& closed_form);
 
+// A subproblem that solves everything twice and keeps the largest difference.
 template <typename Subproblem>
 class CrossChecked {
  public:
   using Estimate = typename Subproblem::Estimate;
 
+  // `subproblem` must outlive this.
   explicit CrossChecked(const Subproblem& subproblem)
       : subproblem_(subproblem) {}
 
@@ -55,6 +57,7 @@ class CrossChecked {
     return estimate;
   }
 
+  // Of all that was solved so far.
   const CrosscheckReport& report() const { return report_; }
 
  private:

@@ -19,6 +19,7 @@
 
 namespace quatro {
 
+// Matches without copies, in an order of their own.
 struct DistinctMatches {
   Points source;
   Points target;
@@ -26,6 +27,7 @@ struct DistinctMatches {
   std::vector<std::vector<Eigen::Index>> columns;
 };
 
+// Of matches column by column.
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target);
 

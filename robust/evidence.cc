@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "features/parallel.h"
 #include "robust/free_space.h"
 #include "solvers/gravity.h"
 
@@ -93,6 +94,7 @@ void AddFreeSpace(const std::vector<StructurePoint>& structure,
 std::optional<GeometricEvidence> MeasureLevel(const SurfaceCloud& source,
                                               const SurfaceCloud& target,
                                               const Rigid3& target_from_source,
+                                              const MutualContacts& contacts,
                                               const EvidenceOptions& options,
                                               int num_threads) {
   const Rigid3 level{RotationBetween(target.up, Eigen::Vector3d::UnitZ()),
@@ -103,6 +105,7 @@ std::optional<GeometricEvidence> MeasureLevel(const SurfaceCloud& source,
       source,
       {level * target.sensor, tree, normals, target.is_scan},
       level * target_from_source,
+      contacts,
       options,
       num_threads);
   if (!evidence) return std::nullopt;
@@ -137,20 +140,38 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
     const Rigid3& target_from_source,
     const EvidenceOptions& options,
     int num_threads) {
+  return MeasureGeometricEvidence(source,
+                                  target,
+                                  target_from_source,
+                                  FindMutualContacts(source,
+                                                     target,
+                                                     target_from_source,
+                                                     options.MaxDistance(),
+                                                     num_threads),
+                                  options,
+                                  num_threads);
+}
+
+std::optional<GeometricEvidence> MeasureGeometricEvidence(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
+    const EvidenceOptions& options,
+    int num_threads) {
   if (target.up != Eigen::Vector3d::UnitZ()) {
     return MeasureLevel(
-        source, target, target_from_source, options, num_threads);
+        source, target, target_from_source, contacts, options, num_threads);
   }
   if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
     return std::nullopt;
   }
   const Rigid3 source_from_target = Inverse(target_from_source);
-  const double max_distance =
-      options.max_distance_in_voxels * options.voxel_size;
-  const auto of_source = FindStructure(
-      source, target, target_from_source, max_distance, num_threads);
-  const auto of_target = FindStructure(
-      target, source, source_from_target, max_distance, num_threads);
+  const double max_distance = options.MaxDistance();
+  const auto of_source =
+      FindStructure(source, target, target_from_source, contacts.of_source);
+  const auto of_target =
+      FindStructure(target, source, source_from_target, contacts.of_target);
   const auto source_share = ShareMet(of_source);
   const auto target_share = ShareMet(of_target);
   if (!source_share || !target_share) return std::nullopt;
@@ -175,8 +196,12 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
   evidence.weakest_direction.head<2>() =
       eigenvector[largest] < 0.0 ? -eigenvector : eigenvector;
 
-  const auto source_image = ImageOf(source, options.voxel_size);
-  const auto target_image = ImageOf(target, options.voxel_size);
+  std::optional<RangeImage> source_image;
+  std::optional<RangeImage> target_image;
+  ParallelDo(
+      num_threads,
+      [&] { source_image = ImageOf(source, options.voxel_size); },
+      [&] { target_image = ImageOf(target, options.voxel_size); });
   AddFreeSpace(of_source,
                source,
                target_image,
@@ -203,7 +228,8 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
                                  middle,
                                  evidence.weakest_direction,
                                  max_distance,
-                                 options.rival);
+                                 options.rival,
+                                 num_threads);
   const Rigid3& rival = evidence.rival.rival_target_from_source;
   AddFreeSpace(FindStructure(source, target, rival, max_distance, num_threads),
                source,

@@ -21,12 +21,14 @@
 #include <optional>
 #include <string>
 
+#include "robust/contact.h"
 #include "robust/overlap.h"
 #include "robust/rival_pose.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
 
+// From how near on a point is met, and where rivals are looked for.
 struct EvidenceOptions {
   double voxel_size = 0.3;  // Of the clouds [m].
 
@@ -34,6 +36,8 @@ struct EvidenceOptions {
   double max_distance_in_voxels = 5.0 / 3.0;
 
   RivalPoseOptions rival;
+
+  double MaxDistance() const { return max_distance_in_voxels * voxel_size; }
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -53,6 +57,7 @@ struct FreeSpace {
   }
 };
 
+// What the clouds say for and against a pose.
 struct GeometricEvidence {
   double structure_overlap = 0.0;  // In [0, 1].
   double median_residual = 0.0;    // Of met points [voxel sizes]; 0 if none.
@@ -75,6 +80,15 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
     const SurfaceCloud& source,
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
+    const EvidenceOptions& options,
+    int num_threads);
+
+// The same with the contacts at the pose at hand, within MaxDistance().
+std::optional<GeometricEvidence> MeasureGeometricEvidence(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
     const EvidenceOptions& options,
     int num_threads);
 

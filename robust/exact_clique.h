@@ -44,6 +44,7 @@
 
 namespace quatro {
 
+// When to be content with less than the largest.
 struct ExactCliqueOptions {
   // Wall time; infinity for no limit. Kept to a few milliseconds, except that
   // the core decomposition is always done: 20 to 90 ms for 5,000 vertices.
@@ -60,6 +61,7 @@ struct ExactCliqueOptions {
   bool IsValid(std::string* error) const;
 };
 
+// What is known of the clique found.
 enum class ExactCliqueTermination {
   kInvalidOptions,  // Nothing was tried; see message.
   kOptimal,         // There is no larger clique.
@@ -79,6 +81,7 @@ struct ExactCliqueSummary {
   std::int64_t num_branches = 0;  // Sets of candidates that were coloured.
 };
 
+// The largest clique of the graph, or the largest found.
 ExactCliqueSummary FindMaximumClique(const Graph& graph,
                                      const ExactCliqueOptions& options);
 

@@ -40,6 +40,7 @@
 
 namespace quatro {
 
+// How many consensuses like this one chance would give, at one stage.
 struct FalseAlarms {
   std::string stage;              // "clique", "rotation" or "pose".
   Eigen::Index num_tested = 0;    // N or K

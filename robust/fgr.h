@@ -40,6 +40,7 @@
 
 namespace quatro {
 
+// The noise, and how fast the loss tightens to it.
 struct FgrOptions {
   double noise_bound = 0.3;  // delta [m]
 
@@ -63,6 +64,7 @@ struct FgrOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, and where the descent ended.
 struct FgrSummary : PoseSummary {
   int iterations = 0;
   double mu = 0.0;    // The last one [m^2].
@@ -83,6 +85,7 @@ struct FgrNormalEquations {
   double loss = 0.0;  // (1)
 };
 
+// (1) at a pose and a mu, line process included.
 FgrNormalEquations LinearizeFgr(const PointsRef& source,
                                 const PointsRef& target,
                                 const Rigid3& target_from_source,

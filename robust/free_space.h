@@ -31,6 +31,7 @@
 
 namespace quatro {
 
+// How far the sensor saw in each direction.
 class RangeImage {
  public:
   // `points` and `sensor` in one frame, `voxel_size` of the points [m].
@@ -38,6 +39,7 @@ class RangeImage {
              const Eigen::Vector3d& sensor,
              double voxel_size);
 
+  // What the sensor says of a place.
   enum class Sight {
     kUnknown,  // No beam went there, or the sensor stood there itself.
     kFree,     // Equation (2): the sensor saw farther.

@@ -5,6 +5,7 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -34,13 +35,14 @@ AssumedSensor AssumeSensor(const Points& points, const Eigen::Vector3d& up) {
   return sensor;
 }
 
-// Sets what is kept of the cloud, whose tree there is, and returns its
-// descriptors.
+// Sets what is kept of the cloud, and returns its FPFH, unless it is to be
+// described otherwise.
 Fpfh Describe(const Points& points,
               const Eigen::Vector3d& up,
               const FrontEndOptions& options,
               int num_threads,
               DescribedCloud* cloud) {
+  cloud->tree = std::make_shared<const KdTree>(points);
   cloud->sensor = AssumeSensor(points, up);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(*cloud->tree, options.fpfh_radius, num_threads);
@@ -49,12 +51,8 @@ Fpfh Describe(const Points& points,
                                    options.normal_radius,
                                    cloud->sensor.place,
                                    num_threads);
-  Fpfh fpfh =
-      options.describe
-          ? options.describe(points, cloud->normals, options.fpfh_radius)
-          : ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
-  CHECK_EQ(fpfh.cols(), points.cols());
-  return fpfh;
+  if (options.describe) return Fpfh();
+  return ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
 }
 
 }  // namespace
@@ -98,7 +96,8 @@ MatchedClouds MatchClouds(
     if (progress) progress(clouds.stage_times.back());
   };
 
-  // Of both at once.
+  // Both at once, by half of the threads each: what either does by one thread
+  // alone is done beside the other's.
   std::array<std::optional<Points>, 2> voxels;
   std::array<std::string, 2> errors;
   const auto for_both = [&](const auto& body) {
@@ -122,21 +121,31 @@ MatchedClouds MatchClouds(
 
   const std::array<DescribedCloud*, 2> described = {&clouds.source,
                                                     &clouds.target};
+  const std::array<const Eigen::Vector3d*, 2> up = {&source_up, &target_up};
+  const int num_threads_to_use = NumThreadsToUse(num_threads);
+  const std::array<int, 2> num_threads_of = {
+      (num_threads_to_use + 1) / 2, std::max(1, num_threads_to_use / 2)};
+  std::array<Fpfh, 2> fpfh;
   for_both([&](std::size_t i) {
-    described[i]->tree = std::make_shared<const KdTree>(*voxels[i]);
+    fpfh[i] =
+        Describe(*voxels[i], *up[i], options, num_threads_of[i], described[i]);
   });
-  const Fpfh source_fpfh =
-      Describe(*source_voxels, source_up, options, num_threads, &clouds.source);
-  const Fpfh target_fpfh =
-      Describe(*target_voxels, target_up, options, num_threads, &clouds.target);
+  if (options.describe) {
+    for (const std::size_t i : {0u, 1u}) {
+      fpfh[i] = options.describe(
+          *voxels[i], described[i]->normals, options.fpfh_radius);
+      CHECK_EQ(fpfh[i].cols(), voxels[i]->cols());
+    }
+  }
   finish_stage("features");
 
   std::vector<Match> matches =
-      MatchMutualNearest(source_fpfh, target_fpfh, num_threads);
+      MatchMutualNearest(fpfh[0], fpfh[1], num_threads);
   clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
   if (options.tuple_test) {
     TupleTestOptions tuple = options.tuple;
     tuple.seed = seed;
+    tuple.num_threads = num_threads;
     matches = FilterByTupleTest(matches, *source_voxels, *target_voxels, tuple);
   }
   const auto num_matches = static_cast<Eigen::Index>(matches.size());

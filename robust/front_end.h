@@ -30,6 +30,7 @@ namespace quatro {
 using CloudDescriber = std::function<Fpfh(
     const Points& points, const Points& normals, double radius)>;
 
+// Sizes and radii, all in metres.
 struct FrontEndOptions {
   double voxel_size = 0.3;     // [m]
   double normal_radius = 0.9;  // [m]
@@ -57,6 +58,7 @@ struct DescribedCloud {
   Points normals;
 };
 
+// Two clouds described, and their matches.
 struct MatchedClouds {
   // Why nothing was tried: an option out of range, a cloud without points or
   // too wide. Empty otherwise.

@@ -35,6 +35,7 @@
 
 namespace quatro {
 
+// How the loop begins, moves on and ends.
 struct GncOptions {
   int max_num_iterations = 100;
 
@@ -53,6 +54,7 @@ struct GncOptions {
   bool IsValid(std::string* error) const;
 };
 
+// Why the loop ended.
 enum class GncTermination {
   kInvalidOptions,    // Nothing was tried; see message.
   kUndetermined,      // Some weights left the subproblem without an answer.
@@ -64,12 +66,14 @@ enum class GncTermination {
 // "12 iterations, then the weights were binary or the cost settled" and so on.
 std::string DescribeGnc(GncTermination termination, std::size_t num_iterations);
 
+// One step of the loop.
 struct GncIteration {
   double mu = 0.0;
   double cost = 0.0;  // sum_i w_i r2_i, or the Subproblem's own.
   double sum_of_weights = 0.0;
 };
 
+// The estimate, its weights, and the way to them.
 template <typename Estimate>
 struct GncSummary {
   GncTermination termination = GncTermination::kUndetermined;
@@ -82,6 +86,7 @@ struct GncSummary {
   bool IsUsable() const { return estimate.has_value(); }
 };
 
+// The subproblem's own cost, or sum_i w_i r2_i.
 template <typename Subproblem>
 double GncCost(const Subproblem& subproblem,
                const typename Subproblem::Estimate& estimate,
@@ -94,6 +99,7 @@ double GncCost(const Subproblem& subproblem,
   }
 }
 
+// The loop: weights for a fixed estimate, the estimate for fixed weights.
 template <typename Surrogate, typename Subproblem>
 GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
                                                    const GncOptions& options) {

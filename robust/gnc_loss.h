@@ -31,6 +31,7 @@
 
 namespace quatro {
 
+// A surrogate as Ceres wants a loss, at a mu that others move.
 template <typename Surrogate>
 class GncLoss final : public ceres::LossFunction {
  public:

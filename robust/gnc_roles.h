@@ -16,6 +16,7 @@
 
 namespace quatro {
 
+// The role and the bound of each residual block.
 using GncBlocks = std::unordered_map<ceres::ResidualBlockId, GncBlock>;
 
 // Of all residual blocks, candidates with their bounds. Nullopt, with *error

@@ -22,6 +22,7 @@ inline double LeastTurn(const RigidEstimate& rigid) {
   return 0.5 * eigen.eigenvalues()[0];
 }
 
+// Whether even the least turn shows above the noise.
 inline bool HoldsRotation(const RigidEstimate& rigid, double noise_bound) {
   return LeastTurn(rigid) > noise_bound * noise_bound;
 }

@@ -33,8 +33,10 @@
 
 namespace quatro {
 
+// What is made of the INS.
 enum class InsMode { kNone, kRelative, kLeveled, kFused };
 
+// The INS' attitudes, and how far they are trusted.
 struct InsOptions {
   InsMode mode = InsMode::kNone;  // kNone: of all this, `up` alone counts.
 
@@ -71,6 +73,8 @@ struct LevelFrames {
   Eigen::Matrix3d level_from_source;
   Eigen::Matrix3d level_from_target;
 };
+
+// Those of the mode.
 LevelFrames MakeLevelFrames(const InsOptions& ins);
 
 // Column i of `source` is matched with column i of `target` [m].

@@ -18,6 +18,7 @@
 
 namespace quatro {
 
+// (1) of these matches, for one pose after another.
 class MatchScorer {
  public:
   // `noise_bound` b > 0 [m].
@@ -33,6 +34,7 @@ class MatchScorer {
   std::vector<Eigen::Index> Inliers(const Rigid3& target_from_source,
                                     double factor = 1.0) const;
 
+  // All of them.
   Eigen::Index num_matches() const { return num_matches_; }
 
  private:

@@ -9,24 +9,42 @@
 namespace quatro {
 namespace {
 
-// The same graph with vertex order[k] renamed k.
-Graph Renamed(const Graph& graph, const std::vector<int>& order) {
-  const int n = graph.num_vertices();
-  std::vector<int> name(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) {
-    name[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])] = k;
+// The same graph with vertex order[k] renamed k. Rows are made when they are
+// asked for: once a clique is large, few others are.
+class RenamedGraph {
+ public:
+  RenamedGraph(const Graph& graph, const std::vector<int>& order)
+      : graph_(graph),
+        order_(order),
+        name_(order.size()),
+        renamed_(graph.num_vertices()),
+        is_made_(order.size(), false) {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      name_[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+    }
   }
-  Graph renamed(n);
-  for (int k = 0; k < n; ++k) {
-    const auto row = renamed.MutableRow(k);
-    graph.ForEachNeighbor(order[static_cast<std::size_t>(k)], [&](int j) {
-      const int neighbor = name[static_cast<std::size_t>(j)];
-      row[static_cast<std::size_t>(neighbor / Graph::kWordBits)] |=
-          Graph::Word{1} << (neighbor % Graph::kWordBits);
-    });
+
+  std::span<const Graph::Word> Row(int k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (!is_made_[at]) {
+      is_made_[at] = true;
+      const auto row = renamed_.MutableRow(k);
+      graph_.ForEachNeighbor(order_[at], [&](int j) {
+        const int neighbor = name_[static_cast<std::size_t>(j)];
+        row[static_cast<std::size_t>(neighbor / Graph::kWordBits)] |=
+            Graph::Word{1} << (neighbor % Graph::kWordBits);
+      });
+    }
+    return renamed_.Row(k);
   }
-  return renamed;
-}
+
+ private:
+  const Graph& graph_;
+  const std::vector<int>& order_;
+  std::vector<int> name_;  // Of each vertex.
+  Graph renamed_;
+  std::vector<bool> is_made_;
+};
 
 }  // namespace
 
@@ -55,11 +73,16 @@ CoreDecomposition DecomposeCores(const Graph& graph) {
     }
   }
 
+  // Those that are left; of the others no degree falls any more.
+  std::vector<Graph::Word> left(
+      graph.num_vertices() > 0 ? graph.Row(0).size() : 0, ~Graph::Word{0});
   for (std::size_t k = 0; k < n; ++k) {
     const int i = cores.order[k];
     const int core = degree[static_cast<std::size_t>(i)];
     cores.max_core = std::max(cores.max_core, core);
-    graph.ForEachNeighbor(i, [&](int neighbor) {
+    left[static_cast<std::size_t>(i / Graph::kWordBits)] &=
+        ~(Graph::Word{1} << (i % Graph::kWordBits));
+    graph.ForEachNeighborAmong(i, left, [&](int neighbor) {
       const auto j = static_cast<std::size_t>(neighbor);
       if (degree[j] <= core) return;
       // One bucket down: change places with the first of its bucket.
@@ -80,7 +103,7 @@ std::vector<int> FindCliqueGreedily(const Graph& graph) {
   CoreDecomposition cores = DecomposeCores(graph);
   // Highest core first, so that the first bit of a set is its best candidate.
   std::reverse(cores.order.begin(), cores.order.end());
-  const Graph ordered = Renamed(graph, cores.order);
+  RenamedGraph ordered(graph, cores.order);
   const auto core_of = [&](int k) {
     const int vertex = cores.order[static_cast<std::size_t>(k)];
     return cores.core_number[static_cast<std::size_t>(vertex)];

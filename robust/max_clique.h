@@ -20,6 +20,7 @@
 
 namespace quatro {
 
+// How deep in the graph each vertex lies.
 struct CoreDecomposition {
   std::vector<int> core_number;  // Of each vertex.
   std::vector<int> order;        // Vertices as they are peeled, lowest first.

@@ -38,17 +38,20 @@
 
 namespace quatro {
 
+// What a pose is made from.
 enum class MinimalSample { kThreePoints, kTwoPoints, kPointAndNormal };
 
 // Matches in a sample: 3, 2 or 1.
 int SampleSize(MinimalSample sample);
 
+// What a sample must pass before a pose is made from it.
 enum class EdgeTest {
   kNone,
   kBound,  // (1)
   kRatio,  // (2)
 };
 
+// The sample and its test.
 struct MinimalPoseOptions {
   double noise_bound = 0.3;  // b [m]
   MinimalSample sample = MinimalSample::kThreePoints;

@@ -7,14 +7,41 @@
 #include <cmath>
 
 #include "features/parallel.h"
+#include "robust/contact.h"
 
 namespace quatro {
 namespace {
 
 constexpr double kMaxVertical = 0.7071;  // |n_up| of a surface at 45 deg.
-constexpr double kMinNormalCosine = 0.8;
 constexpr double kRangeQuantile = 0.75;
 constexpr std::size_t kMinStructure = 50;
+
+// a's structure in the range of b's sensor, none of it near yet.
+std::vector<StructurePoint> FindCounted(const SurfaceCloud& a,
+                                        const SurfaceCloud& b,
+                                        const Rigid3& b_from_a) {
+  const Points& points = a.tree.points();
+  const double max_range = UsefulRange(b);
+  std::vector<StructurePoint> found;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!IsStructure(a.normals.col(i), a.up)) continue;
+    const Eigen::Vector3d point_in_b =
+        b_from_a * Eigen::Vector3d(points.col(i));
+    if ((point_in_b - b.sensor).norm() <= max_range) found.push_back({i});
+  }
+  return found;
+}
+
+void SetNearest(const SurfaceCloud& a,
+                const SurfaceCloud& b,
+                const Rigid3& b_from_a,
+                Eigen::Index nearest,
+                StructurePoint* point) {
+  point->nearest = nearest;
+  point->is_near = true;
+  point->is_met = NormalsAgree(b_from_a.rotation * a.normals.col(point->index),
+                               b.normals.col(nearest));
+}
 
 }  // namespace
 
@@ -42,29 +69,30 @@ std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
                                           const Rigid3& b_from_a,
                                           double max_distance,
                                           int num_threads) {
-  const Points& points = a.tree.points();
-  const double max_range = UsefulRange(b);
-  std::vector<StructurePoint> found;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    if (!IsStructure(a.normals.col(i), a.up)) continue;
-    const Eigen::Vector3d point_in_b =
-        b_from_a * Eigen::Vector3d(points.col(i));
-    if ((point_in_b - b.sensor).norm() <= max_range) found.push_back({i});
-  }
+  std::vector<StructurePoint> found = FindCounted(a, b, b_from_a);
   const auto look = [&](Eigen::Index begin, Eigen::Index end) {
     for (Eigen::Index k = begin; k < end; ++k) {
       StructurePoint& point = found[static_cast<std::size_t>(k)];
-      const Neighbor nearest =
-          b.tree.Nearest(b_from_a * Eigen::Vector3d(points.col(point.index)), 1)
-              .front();
-      const double cosine = (b_from_a.rotation * a.normals.col(point.index))
-                                .dot(b.normals.col(nearest.index));
-      point.nearest = nearest.index;
-      point.is_near = nearest.squared_distance <= max_distance * max_distance;
-      point.is_met = point.is_near && std::abs(cosine) > kMinNormalCosine;
+      const auto nearest = b.tree.NearestWithin(
+          b_from_a * Eigen::Vector3d(a.tree.points().col(point.index)),
+          max_distance);
+      if (nearest) SetNearest(a, b, b_from_a, nearest->index, &point);
     }
   };
   ParallelFor(num_threads, static_cast<Eigen::Index>(found.size()), 256, look);
+  return found;
+}
+
+std::vector<StructurePoint> FindStructure(
+    const SurfaceCloud& a,
+    const SurfaceCloud& b,
+    const Rigid3& b_from_a,
+    const std::vector<std::int32_t>& contacts) {
+  std::vector<StructurePoint> found = FindCounted(a, b, b_from_a);
+  for (StructurePoint& point : found) {
+    const auto nearest = contacts[static_cast<std::size_t>(point.index)];
+    if (nearest != kNoContact) SetNearest(a, b, b_from_a, nearest, &point);
+  }
   return found;
 }
 

@@ -16,6 +16,7 @@
 #define QUATRO_ROBUST_OVERLAP_H_
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,7 @@
 
 namespace quatro {
 
+// A cloud as a surface seen from somewhere.
 struct SurfaceCloud {
   Eigen::Vector3d sensor;  // Where it stood, in the frame of the points [m].
   const KdTree& tree;      // Of the points [m].
@@ -46,17 +48,24 @@ double UsefulRange(const SurfaceCloud& cloud);
 // A structure point of one cloud and the nearest point of another.
 struct StructurePoint {
   Eigen::Index index = 0;
-  Eigen::Index nearest = 0;
-  bool is_near = false;  // Within max_distance.
-  bool is_met = false;   // And the normals agree.
+  Eigen::Index nearest = 0;  // If near.
+  bool is_near = false;      // Within max_distance.
+  bool is_met = false;       // And the normals agree.
 };
 
-// Those of a's structure points that count, ascending. b must have points.
+// Those of a's structure points that count, ascending.
 std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
                                           const SurfaceCloud& b,
                                           const Rigid3& b_from_a,
                                           double max_distance,
                                           int num_threads);
+
+// The same with a's contacts in b at hand (robust/contact.h).
+std::vector<StructurePoint> FindStructure(
+    const SurfaceCloud& a,
+    const SurfaceCloud& b,
+    const Rigid3& b_from_a,
+    const std::vector<std::int32_t>& contacts);
 
 // The share that is met; nullopt of fewer than 50.
 std::optional<double> ShareMet(const std::vector<StructurePoint>& structure);

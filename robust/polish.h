@@ -29,6 +29,7 @@
 
 namespace quatro {
 
+// When a pose in SE(3) is believed.
 struct PolishOptions {
   double noise_bound = 0.3;  // b [m]
 
@@ -41,6 +42,7 @@ struct PolishOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, polished or as it was given.
 struct PolishSummary {
   Rigid3 target_from_source;  // The pose given if nothing better is held.
   bool is_polished = false;

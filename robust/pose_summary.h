@@ -19,6 +19,7 @@
 
 namespace quatro {
 
+// How an estimator ended.
 enum class PoseTermination {
   kInvalidInput,  // Options out of range or points that are not finite.
   kInsufficient,  // Fewer consistent matches than the estimator needs.
@@ -48,6 +49,7 @@ struct StageNote {
   std::string text;
 };
 
+// The pose, how many matches held it at each stage, and why it ended so.
 struct PoseSummary {
   PoseTermination termination = PoseTermination::kInvalidInput;
   std::string message = "no estimator was called";

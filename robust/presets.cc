@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "features/kd_tree.h"
+#include "features/surface_share.h"
 #include "features/voxel_grid.h"
 
 namespace quatro {
@@ -16,6 +17,9 @@ namespace {
 
 constexpr Eigen::Index kWantedVoxels = 15000;
 constexpr Eigen::Index kNumSamples = 1000;
+constexpr double kWantedSurfaceShare = 2.0 / 3.0;
+constexpr double kGrowth = 1.15;
+constexpr double kMaxGrowth = 16.0;
 
 RegistrationOptions InProportionTo(double voxel_size) {
   RegistrationOptions options;
@@ -91,6 +95,23 @@ double TypicalSpacing(const PointCloud& cloud) {
   return std::sqrt(*middle);
 }
 
+double SurfaceShareOfVoxels(const PointCloud& cloud, double voxel_size) {
+  std::string error;
+  const auto voxels = SampleVoxels(cloud.points, voxel_size, &error);
+  const double radius = InProportionTo(voxel_size).front_end.normal_radius;
+  return voxels ? SurfaceShare(KdTree(*voxels), radius) : 1.0;
+}
+
+// `voxel_size` enlarged until normals are those of surfaces; as it is where no
+// size in reach does that.
+double SizeForSurfaces(const PointCloud& cloud, double voxel_size) {
+  const double largest = kMaxGrowth * voxel_size;
+  for (double size = voxel_size; size <= largest; size *= kGrowth) {
+    if (SurfaceShareOfVoxels(cloud, size) >= kWantedSurfaceShare) return size;
+  }
+  return voxel_size;
+}
+
 }  // namespace
 
 std::vector<std::string> PresetNames() {
@@ -115,7 +136,9 @@ RegistrationOptions MakeAutoOptions(const PointCloud& source,
   const double spacing =
       std::max(TypicalSpacing(source), TypicalSpacing(target));
   // Two digits: a size that can be quoted, and that small changes do not move.
-  const double chosen = std::max(size, spacing);
+  const double dense = std::max(size, spacing);
+  const double chosen =
+      std::max(SizeForSurfaces(source, dense), SizeForSurfaces(target, dense));
   const double unit = std::pow(10.0, std::floor(std::log10(chosen)) - 1.0);
   return InProportionTo(std::max(0.01, std::round(chosen / unit) * unit));
 }

@@ -15,6 +15,7 @@
 
 namespace quatro {
 
+// How the consistent matches are found.
 enum class Pruning {
   kCliqueHeuristic,  // The paper's MCIS-heuristic.
   kExactClique,      // Branch and bound, until a time limit.
@@ -22,6 +23,7 @@ enum class Pruning {
   kNone,
 };
 
+// The way, the test and the time for it.
 struct PruningOptions {
   Pruning method = Pruning::kCliqueHeuristic;
   ConsistencyOptions consistency;

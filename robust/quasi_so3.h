@@ -19,6 +19,7 @@
 
 namespace quatro {
 
+// A yaw from differences of points, for robust/gnc.h.
 struct QuasiSo3 {
   using Estimate = YawEstimate;
 

@@ -45,11 +45,13 @@
 
 namespace quatro {
 
+// Which yaw is taken.
 enum class YawSolver {
   kGnc,    // Graduated non-convexity, the paper's.
   kExact,  // The global optimum of the truncated problem.
 };
 
+// Every choice of the four stages; the defaults are those of preset kitti.
 struct QuatroOptions {
   // How far a right match may be off [m].
   double noise_bound = 0.3;
@@ -94,6 +96,7 @@ struct QuatroOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, and the yaw it came from.
 struct QuatroSummary : PoseSummary {
   // Of the yaw; not run for YawSolver::kExact.
   GncSummary<YawEstimate> gnc;

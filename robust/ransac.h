@@ -39,6 +39,7 @@
 
 namespace quatro {
 
+// The sample, and when enough have been drawn.
 struct RansacOptions {
   MinimalPoseOptions minimal;  // And the noise bound b [m].
 
@@ -56,6 +57,7 @@ struct RansacOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, and what it took to find it.
 struct RansacSummary : PoseSummary {
   std::int64_t num_iterations = 0;    // Samples drawn.
   std::int64_t num_hypotheses = 0;    // Of these, gave a pose to score.

@@ -27,11 +27,13 @@
 
 namespace quatro {
 
+// What refines the pose.
 enum class RefinementMethod { kNone, kIcp, kGicp, kVgicp };
 
 // "none", "icp", "gicp" or "vgicp".
 const char* RefinementName(RefinementMethod method);
 
+// The method, and when its answer is refused.
 struct RefinementOptions {
   RefinementMethod method = RefinementMethod::kNone;
   LocalAlignmentOptions alignment;
@@ -46,6 +48,7 @@ struct RefinementOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose after, and why it was taken or refused.
 struct RefinementSummary {
   RefinementMethod method = RefinementMethod::kNone;
   AlignmentSummary alignment;

@@ -30,9 +30,11 @@ std::optional<GeometricEvidence> WeighGeometry(
   EvidenceOptions evidence;
   evidence.voxel_size = options.front_end.voxel_size;
   StructureHoldOptions hold = options.structure_hold;
-  hold.max_distance = evidence.max_distance_in_voxels * evidence.voxel_size;
+  hold.max_distance = evidence.MaxDistance();
+  const MutualContacts contacts = FindMutualContacts(
+      source, target, pose, hold.max_distance, options.num_threads);
   summary->structure_hold =
-      MeasureStructureHold(source, target, pose, hold, options.num_threads);
+      MeasureStructureHold(source, target, pose, contacts, hold);
   if (summary->structure_hold) {
     auto& unheld = summary->solution.covariance->unheld;
     unheld.insert(unheld.end(),
@@ -40,7 +42,7 @@ std::optional<GeometricEvidence> WeighGeometry(
                   summary->structure_hold->unheld.end());
   }
   return MeasureGeometricEvidence(
-      source, target, pose, evidence, options.num_threads);
+      source, target, pose, contacts, evidence, options.num_threads);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@
 
 namespace quatro {
 
+// All options of the way from clouds to a verdict.
 struct RegistrationOptions {
   FrontEndOptions front_end;
   QuatroOptions quatro;
@@ -63,6 +64,7 @@ struct RegistrationOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, the verdict, and what each stage made of the clouds.
 struct RegistrationSummary {
   // Why nothing was tried: an option out of range, a cloud without points or
   // too wide. Empty otherwise.
@@ -92,6 +94,7 @@ struct RegistrationSummary {
   }
 };
 
+// Registers two clouds, with no guess of the motion between them.
 RegistrationSummary Register(const PointCloud& source,
                              const PointCloud& target,
                              const RegistrationOptions& options);

@@ -32,6 +32,7 @@
 
 namespace quatro {
 
+// From where on another pose is another answer, and how hard it is looked for.
 struct RivalOptions {
   // A rival turns by this [rad], or moves the middle of the matches that agree
   // by this many noise bounds. Nearer poses are the same answer.
@@ -53,6 +54,7 @@ struct RivalOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The best other pose by matches.
 struct Rival {
   Rigid3 target_from_source;
   Eigen::Index num_agreeing = 0;  // l

@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <vector>
 
+#include "features/parallel.h"
 #include "robust/structure_grid.h"
 
 namespace quatro {
@@ -179,9 +181,14 @@ RivalPose FindRivalPose(const SurfaceCloud& source,
                         const Eigen::Vector3d& middle,
                         const Eigen::Vector3d& direction,
                         double max_distance,
-                        const RivalPoseOptions& options) {
-  const StructureGrid source_grid(source, max_distance);
-  const StructureGrid target_grid(target, max_distance);
+                        const RivalPoseOptions& options,
+                        int num_threads) {
+  std::optional<StructureGrid> source_grid;
+  std::optional<StructureGrid> target_grid;
+  ParallelDo(
+      num_threads,
+      [&] { source_grid.emplace(source, max_distance); },
+      [&] { target_grid.emplace(target, max_distance); });
   const auto sample_both = [&](Eigen::Index num) {
     return std::array{SampleStructure(source, num),
                       SampleStructure(target, num)};
@@ -189,34 +196,45 @@ RivalPose FindRivalPose(const SurfaceCloud& source,
   const auto searched = sample_both(options.num_search_points);
   const auto compared = sample_both(options.num_compared_points);
   const auto compare = [&](const auto& samples) {
-    return Comparison(source_grid,
-                      target_grid,
+    return Comparison(*source_grid,
+                      *target_grid,
                       samples[0],
                       samples[1],
                       target_from_source,
                       middle,
                       direction);
   };
-  Comparison search = compare(searched);
-  Comparison comparison = compare(compared);
+  const Comparison search = compare(searched);
+  const Comparison comparison = compare(compared);
 
   RivalPose result;
   result.rival_target_from_source = target_from_source;
-  result.overlap = std::max(0.0, comparison.Overlap({}));
+  result.overlap = std::max(0.0, Comparison(comparison).Overlap({}));
   // Two of them at max_distance either side leave no gap.
   const double step = std::max(1.5 * max_distance, options.max_shift / 40.0);
-  for (const double yaw : {0.0, M_PI, 0.5 * M_PI, -0.5 * M_PI}) {
-    Move best =
-        FindBestShift(search,
-                      yaw,
-                      yaw == 0.0 ? options.max_shift : options.max_turned_shift,
-                      step,
-                      options.min_shift);
-    if (best.overlap < 0.0) continue;
-    best = Refine(search, best, 0.5 * step, options.min_shift);
-    const double overlap = comparison.Overlap(best);
-    if (overlap > result.rival_overlap) {
-      result.rival_overlap = overlap;
+  constexpr std::array kYaws = {0.0, M_PI, 0.5 * M_PI, -0.5 * M_PI};
+  std::array<Move, kYaws.size()> best_of;
+  const auto find_best = [&](std::size_t i) {
+    const double max_shift =
+        kYaws[i] == 0.0 ? options.max_shift : options.max_turned_shift;
+    Comparison turned = search;
+    Move& best = best_of[i];
+    best = FindBestShift(turned, kYaws[i], max_shift, step, options.min_shift);
+    if (best.overlap < 0.0) return;
+    best = Refine(turned, best, 0.5 * step, options.min_shift);
+    best.overlap = Comparison(comparison).Overlap(best);
+  };
+  ParallelFor(num_threads,
+              static_cast<Eigen::Index>(kYaws.size()),
+              1,
+              [&](Eigen::Index begin, Eigen::Index end) {
+                for (Eigen::Index i = begin; i < end; ++i) {
+                  find_best(static_cast<std::size_t>(i));
+                }
+              });
+  for (const Move& best : best_of) {
+    if (best.overlap > result.rival_overlap) {
+      result.rival_overlap = best.overlap;
       result.rival_target_from_source = comparison.Moved(best);
       result.yaw = best.yaw;
       result.shift = comparison.InTarget(best.shift);

@@ -26,6 +26,7 @@
 
 namespace quatro {
 
+// Where another pose is looked for.
 struct RivalPoseOptions {
   double min_shift = 2.0;         // [m]
   double max_shift = 12.0;        // [m], without a turn.
@@ -39,6 +40,7 @@ struct RivalPoseOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The best other pose by geometry.
 struct RivalPose {
   double overlap = 0.0;        // o(X), in [0, 1].
   double rival_overlap = 0.0;  // o(rival); 0 if no rival shares enough space.
@@ -59,7 +61,8 @@ RivalPose FindRivalPose(const SurfaceCloud& source,
                         const Eigen::Vector3d& middle,
                         const Eigen::Vector3d& direction,
                         double max_distance,
-                        const RivalPoseOptions& options);
+                        const RivalPoseOptions& options,
+                        int num_threads);
 
 }  // namespace quatro
 

@@ -18,6 +18,7 @@
 
 namespace quatro {
 
+// A rotation from differences of points, for robust/gnc.h.
 struct So3 {
   using Estimate = RotationEstimate;
 

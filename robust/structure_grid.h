@@ -27,6 +27,8 @@ struct StructureSample {
   Points points;  // [m]
   Points normals;
 };
+
+// At most `num_wanted`, evenly along the cloud.
 StructureSample SampleStructure(const SurfaceCloud& cloud,
                                 Eigen::Index num_wanted);
 
@@ -36,21 +38,25 @@ struct TurnedSample {
   std::vector<std::uint8_t> sectors;  // That its normals agree with.
 };
 
+// Points of a sample that could be met, and those that are.
 struct OverlapCount {
   int num_in_range = 0;
   int num_met = 0;
 
+  // Met of those in range; 0 if there are none.
   double Share() const {
     return num_in_range == 0 ? 0.0
                              : static_cast<double>(num_met) / num_in_range;
   }
 };
 
+// The structure of one scan, to lay the other's over it.
 class StructureGrid {
  public:
   // Of all structure within useful range. `max_distance` [m].
   StructureGrid(const SurfaceCloud& cloud, double max_distance);
 
+  // Of the other scan, as it lies in the grid but for a shift.
   TurnedSample Turn(const StructureSample& sample,
                     const Rigid3& grid_from_sample) const;
 

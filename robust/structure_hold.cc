@@ -9,14 +9,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "features/kd_tree.h"
-#include "features/parallel.h"
-
 namespace quatro {
 namespace {
 
 constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
-constexpr double kMinNormalCosine = 0.8;
 constexpr Eigen::Index kMinMet = 50;
 
 // Points of a that are met in b, and b's normals there, both in b.
@@ -28,32 +24,16 @@ struct MetPoints {
 MetPoints FindMet(const SurfaceCloud& a,
                   const SurfaceCloud& b,
                   const Rigid3& b_from_a,
-                  double max_distance,
-                  int num_threads) {
-  constexpr Eigen::Index kNone = -1;
+                  const Contacts& contacts) {
   const Points& points = a.tree.points();
-  std::vector<Eigen::Index> met(static_cast<std::size_t>(points.cols()), kNone);
-  const auto look = [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      const auto normal = a.normals.col(i);
-      if (normal.isZero(0.0)) continue;
-      const Neighbor nearest =
-          b.tree.Nearest(b_from_a * Eigen::Vector3d(points.col(i)), 1).front();
-      const double cosine =
-          (b_from_a.rotation * normal).dot(b.normals.col(nearest.index));
-      if (nearest.squared_distance <= max_distance * max_distance &&
-          std::abs(cosine) > kMinNormalCosine) {
-        met[static_cast<std::size_t>(i)] = nearest.index;
-      }
-    }
-  };
-  ParallelFor(num_threads, points.cols(), 512, look);
   MetPoints result;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Index nearest = met[static_cast<std::size_t>(i)];
-    if (nearest == kNone) continue;
+    const std::int32_t nearest = contacts[static_cast<std::size_t>(i)];
+    if (nearest == kNoContact) continue;
+    const Eigen::Vector3d normal = b.normals.col(nearest);
+    if (!NormalsAgree(b_from_a.rotation * a.normals.col(i), normal)) continue;
     result.points.push_back(b_from_a * Eigen::Vector3d(points.col(i)));
-    result.normals.emplace_back(b.normals.col(nearest));
+    result.normals.push_back(normal);
   }
   return result;
 }
@@ -124,16 +104,27 @@ std::optional<StructureHold> MeasureStructureHold(
     const Rigid3& target_from_source,
     const StructureHoldOptions& options,
     int num_threads) {
-  if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
-    return std::nullopt;
-  }
-  const MetPoints of_source = FindMet(
-      source, target, target_from_source, options.max_distance, num_threads);
-  MetPoints of_target = FindMet(target,
-                                source,
-                                Inverse(target_from_source),
-                                options.max_distance,
-                                num_threads);
+  return MeasureStructureHold(source,
+                              target,
+                              target_from_source,
+                              FindMutualContacts(source,
+                                                 target,
+                                                 target_from_source,
+                                                 options.max_distance,
+                                                 num_threads),
+                              options);
+}
+
+std::optional<StructureHold> MeasureStructureHold(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
+    const StructureHoldOptions& options) {
+  const MetPoints of_source =
+      FindMet(source, target, target_from_source, contacts.of_source);
+  MetPoints of_target =
+      FindMet(target, source, Inverse(target_from_source), contacts.of_target);
   StructureHold hold;
   hold.num_met = static_cast<Eigen::Index>(of_source.points.size() +
                                            of_target.points.size());

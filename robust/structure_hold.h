@@ -24,12 +24,14 @@
 #include <string>
 #include <vector>
 
+#include "robust/contact.h"
 #include "robust/overlap.h"
 #include "solvers/held_directions.h"
 #include "solvers/rigid3.h"
 
 namespace quatro {
 
+// From where on a direction counts as held.
 struct StructureHoldOptions {
   double max_distance = 0.5;  // [m]
 
@@ -40,6 +42,7 @@ struct StructureHoldOptions {
   bool IsValid(std::string* error) const;
 };
 
+// What surfaces hold, direction by direction.
 struct StructureHold {
   // (1): rotations in m^2, the rest of 1.
   Matrix6 information = Matrix6::Zero();
@@ -66,6 +69,14 @@ std::optional<StructureHold> MeasureStructureHold(
     const Rigid3& target_from_source,
     const StructureHoldOptions& options,
     int num_threads);
+
+// The same with the contacts at the pose at hand, within options.max_distance.
+std::optional<StructureHold> MeasureStructureHold(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
+    const StructureHoldOptions& options);
 
 }  // namespace quatro
 

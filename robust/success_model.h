@@ -36,6 +36,7 @@
 
 namespace quatro {
 
+// One number of the model, by name.
 struct Feature {
   std::string name;
   double value = 0.0;

@@ -29,6 +29,7 @@
 
 namespace quatro {
 
+// The noise, the clique, the loop, and whether there is a scale.
 struct TeaserOptions {
   double noise_bound = 0.3;  // How far a right match may be off [m].
 
@@ -52,6 +53,7 @@ struct TeaserOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, and how its rotation was found.
 struct TeaserSummary : PoseSummary {
   GncSummary<RotationEstimate> gnc;
 };

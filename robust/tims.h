@@ -19,12 +19,14 @@
 
 namespace quatro {
 
+// Which pairs are taken.
 enum class TimLayout {
   kRing,      // Each with the one before it, the first with the last: N.
   kComplete,  // All pairs: N (N - 1) / 2.
   kRandom,    // As many as asked for, a != b, drawn with replacement.
 };
 
+// Columns of the two points, the first minus the second.
 using TimPair = std::pair<Eigen::Index, Eigen::Index>;
 
 // The pairs (a, b) among `num_points`. Two points give one pair in a ring, not

@@ -33,6 +33,7 @@
 
 namespace quatro {
 
+// What can be said of an answer.
 enum class Status {
   kRegistered,    // There is an answer, and it is right as far as can be told.
   kAmbiguous,     // There is an answer, and another could be right as well.
@@ -43,6 +44,7 @@ enum class Status {
 // "registered", "ambiguous", "degenerate" or "insufficient".
 const char* StatusName(Status status);
 
+// What is asked for before an answer is vouched for.
 struct VerdictOptions {
   // Registered iff the probability of success is no less.
   double min_probability = 0.8;
@@ -53,6 +55,7 @@ struct VerdictOptions {
   bool IsValid(std::string* error) const;
 };
 
+// What can be said of the answer, and from what.
 struct Verdict {
   Status status = Status::kInsufficient;
   std::string reason = "no registration was tried";
@@ -69,6 +72,7 @@ struct Verdict {
   std::optional<Rival> rival;
   std::optional<GeometricEvidence> geometry;
 
+  // Whether the answer is vouched for.
   bool IsRegistered() const { return status == Status::kRegistered; }
 };
 

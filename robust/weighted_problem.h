@@ -27,6 +27,7 @@
 
 namespace quatro {
 
+// A Ceres problem in which some blocks have weights.
 class WeightedProblem {
  public:
   // Blocks in `left_out` have no part in (1); parameters that no other block
@@ -36,7 +37,10 @@ class WeightedProblem {
                   const std::unordered_set<ceres::ResidualBlockId>& left_out,
                   ceres::EvaluationCallback* evaluation_callback);
 
+  // Blocks with a weight.
   Eigen::Index num_weighted() const { return weights_.size(); }
+
+  // Whether there are blocks without one.
   bool HasOthers() const { return num_others_ > 0; }
 
   // Minimises (1) from the current values and leaves the answer there, unless
@@ -48,6 +52,7 @@ class WeightedProblem {
   // if one can't be evaluated or is not finite.
   std::optional<Eigen::VectorXd> Costs() const;
 
+  // Puts the values back that the problem came with.
   void RestoreInitialValues();
 
  private:

@@ -17,6 +17,7 @@
 
 namespace quatro {
 
+// Points, and the mean that they were taken from.
 struct CenteredPoints {
   Eigen::Vector3d centroid;  // c of (1) [m]
   Points points;             // p_i' of (1) [m]

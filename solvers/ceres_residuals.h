@@ -92,6 +92,7 @@ struct PairResidual {
 // (1) for a turn about z, differentiated by hand.
 class AnalyticYawResidual final : public ceres::SizedCostFunction<3, 2, 3> {
  public:
+  // Of the same pair as the automatic one.
   explicit AnalyticYawResidual(const PairResidual<TurnAboutZ>& pair)
       : pair_(pair) {}
 

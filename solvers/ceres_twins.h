@@ -43,6 +43,7 @@
 
 namespace quatro {
 
+// What Ceres makes of a closed form's problem.
 template <typename Estimate>
 struct CeresTwin {
   // False if Ceres failed, no pair has weight, or a number of one that has is
@@ -53,6 +54,7 @@ struct CeresTwin {
   std::string message = "not solved";  // Ceres' reason to stop.
 };
 
+// Who takes the derivative of the yaw's residual.
 enum class YawDerivative { kAutomatic, kAnalytic };
 
 // Sizes as for the closed forms. Weights are >= 0.
@@ -63,6 +65,7 @@ CeresTwin<YawEstimate> SolveYawByCeres(
     double initial_target_from_source = 0.0,
     YawDerivative derivative = YawDerivative::kAutomatic);
 
+// Of equation (1) of solvers/rotation.h, from the given start.
 CeresTwin<RotationEstimate> SolveRotationByCeres(
     const PointsRef& source,
     const PointsRef& target,
@@ -77,6 +80,7 @@ CeresTwin<YawTranslationEstimate> SolveYawTranslationByCeres(
     const WeightsRef& weights,
     const Rigid3& initial_target_from_source = {});
 
+// Of equation (5) of solvers/rotation.h, from the given start.
 CeresTwin<RigidEstimate> SolvePoseByCeres(
     const PointsRef& source,
     const PointsRef& target,

@@ -30,6 +30,7 @@
 
 namespace quatro {
 
+// The global optimum, and who agrees with it.
 struct ExactYawEstimate {
   double target_from_source = 0.0;  // [rad], in [-pi, pi].
   double cost = 0.0;                // f there, in [0, sum of weights].

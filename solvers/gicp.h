@@ -35,6 +35,7 @@ struct AlignmentCloud {
   const Points& normals;
 };
 
+// The loop, and the shape of a plane.
 struct GicpOptions {
   LocalAlignmentOptions alignment;
   double epsilon = 1e-3;   // In (0, 1).
@@ -51,6 +52,7 @@ std::unique_ptr<AlignmentTerms> MakeGicpTerms(
     double max_correspondence_distance,
     double epsilon);
 
+// Moves the source onto the target, from the given pose on.
 AlignmentSummary SolveGicp(const AlignmentCloud& source,
                            const AlignmentCloud& target,
                            const Rigid3& initial_target_from_source,

@@ -18,6 +18,7 @@
 
 namespace quatro {
 
+// World from body: turns about x, then y, then z.
 struct Attitude {
   double roll = 0.0;   // [rad]
   double pitch = 0.0;  // [rad]

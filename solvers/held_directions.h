@@ -25,9 +25,11 @@
 
 namespace quatro {
 
+// Rotation, then translation.
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Vector<double, 6>;
 
+// Of a direction: a turn about it or a shift along it.
 enum class Freedom { kRotation, kTranslation };
 
 // One of the six of (2), in the target frame.
@@ -48,6 +50,7 @@ std::vector<DirectionInformation> SplitInformation(
     const Eigen::Vector3d& center,
     double min_information);
 
+// Why a direction is not known.
 enum class NotHeld {
   kNoData,       // Nothing depends on it.
   kWithinNoise,  // What depends on it is no larger than the noise.
@@ -56,6 +59,7 @@ enum class NotHeld {
   kNoSurface,    // No surface stands across it (robust/structure_hold.h).
 };
 
+// A direction that is not known, and why.
 struct UnheldDirection {
   Freedom freedom = Freedom::kRotation;
   NotHeld reason = NotHeld::kNoData;

@@ -27,6 +27,7 @@ std::unique_ptr<AlignmentTerms> MakeIcpTerms(
     const KdTree& target,
     double max_correspondence_distance);
 
+// Moves the source onto the target, from the given pose on.
 AlignmentSummary SolveIcp(const Points& source,
                           const KdTree& target,
                           const Rigid3& initial_target_from_source,

@@ -22,6 +22,7 @@
 
 namespace quatro {
 
+// What is up in each cloud, and how sure that is.
 struct VerticalPrior {
   Eigen::Vector3d up_in_source = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
@@ -31,6 +32,7 @@ struct VerticalPrior {
   double Cost(const Eigen::Matrix3d& target_from_source) const;
 };
 
+// The minimum of (1).
 struct InsRefinement {
   Rigid3 target_from_source;
   double cost = 0.0;  // Value of (1) at the minimum.

@@ -27,6 +27,7 @@
 
 namespace quatro {
 
+// The loss and the end of the search.
 struct LinePlaneOptions {
   double huber_width = 0.1;  // [m]
   int max_num_iterations = 4;
@@ -36,6 +37,7 @@ struct LinePlaneOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, or why there is none.
 struct LinePlaneSummary {
   std::optional<Rigid3> target_from_source;
   std::string message = "nothing was tried";

@@ -27,6 +27,7 @@ struct SurfaceMatch {
   Eigen::Vector3d direction;  // d or n
 };
 
+// A point's distance from a line, as a vector.
 struct LineResidual {
   using CostFunction =
       ceres::AutoDiffCostFunction<LineResidual, 3, Turn::kSize, 3>;
@@ -44,6 +45,7 @@ struct LineResidual {
   SurfaceMatch match;
 };
 
+// A point's signed distance from a plane.
 struct PlaneResidual {
   using CostFunction =
       ceres::AutoDiffCostFunction<PlaneResidual, 1, Turn::kSize, 3>;

@@ -37,6 +37,7 @@ namespace quatro {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+// What corresponds, how it is weighed, and when it has converged.
 struct LocalAlignmentOptions {
   double max_correspondence_distance = 1.0;  // [m]
   RobustKernel kernel;                       // rho, of sqrt(e^T W e).
@@ -55,6 +56,7 @@ struct LocalAlignmentOptions {
   bool IsValid(std::string* error) const;
 };
 
+// How a local alignment ended.
 enum class AlignmentTermination {
   kInvalidInput,  // Options out of range or points that are not finite.
   kInsufficient,  // Fewer than three points correspond.
@@ -66,6 +68,7 @@ enum class AlignmentTermination {
 // "invalid_input", "insufficient", ...
 const char* TerminationName(AlignmentTermination termination);
 
+// One step.
 struct AlignmentIteration {
   double cost = 0.0;  // (1) before the step.
   Eigen::Index num_inliers = 0;
@@ -74,6 +77,7 @@ struct AlignmentIteration {
   double damping = 0.0;           // Of the step that was taken.
 };
 
+// The pose, and the way to it.
 struct AlignmentSummary {
   AlignmentTermination termination = AlignmentTermination::kInvalidInput;
   std::string message = "nothing was tried";
@@ -110,6 +114,7 @@ class AlignmentTerms {
  public:
   virtual ~AlignmentTerms() = default;
 
+  // The points that move.
   virtual const Points& source() const = 0;
 
   // Of source point i at a pose: false if nothing corresponds. Called from
@@ -126,6 +131,7 @@ bool CanAlign(const Points& source,
               const LocalAlignmentOptions& options,
               AlignmentSummary* summary);
 
+// Damped Gauss-Newton on (1), whatever the terms are.
 AlignmentSummary AlignLocally(const Rigid3& initial_target_from_source,
                               const LocalAlignmentOptions& options,
                               AlignmentTerms* terms);

@@ -28,6 +28,7 @@ struct UnitCircle {
   }
 };
 
+// The same for Ceres.
 using UnitCircleManifold = ceres::AutoDiffManifold<UnitCircle, 2, 1>;
 
 }  // namespace quatro

@@ -23,6 +23,7 @@
 
 namespace quatro {
 
+// Nearest points that are looked up anew only where they may have changed.
 class NearestPoints {
  public:
   // Of `num_queries` points that move; `cloud` must outlive this.

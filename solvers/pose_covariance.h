@@ -45,6 +45,7 @@
 
 namespace quatro {
 
+// Which freedoms were estimated.
 enum class PoseModel {
   kRigid,  // All six freedoms are estimated.
   // A turn about the vertical and a translation. The tilt, a turn about a level
@@ -53,6 +54,7 @@ enum class PoseModel {
   kYawTranslation,
 };
 
+// The noise, and from where on a direction counts as held.
 struct PoseCovarianceOptions {
   PoseModel model = PoseModel::kRigid;
 
@@ -84,6 +86,7 @@ struct PoseCovarianceOptions {
   bool IsValid(std::string* error) const;
 };
 
+// How certain a pose is, and in which directions it is not.
 struct PoseCovariance {
   std::optional<Matrix6> covariance;                 // Of (2).
   std::optional<Matrix6> covariance_at_center;       // Of w and u in (3).

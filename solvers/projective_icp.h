@@ -29,6 +29,7 @@
 
 namespace quatro {
 
+// Who may be whose partner, and when to stop.
 struct ProjectiveIcpOptions {
   double max_distance = 2.0;  // From partner to partner [m].
   double max_angle = 0.52;    // Between their normals [rad].
@@ -45,6 +46,7 @@ struct ProjectiveIcpOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The pose, or why there is none.
 struct ProjectiveIcpSummary {
   std::optional<Rigid3> model_from_scan;
   std::string message = "nothing was tried";
@@ -55,6 +57,7 @@ struct ProjectiveIcpSummary {
   double conditioning = 0.0;
 };
 
+// Moves the scan onto the model, from the given pose on.
 ProjectiveIcpSummary AlignProjectively(const VertexMap& scan,
                                        const VertexMap& model,
                                        const Rigid3& initial_model_from_scan,

@@ -17,11 +17,13 @@
 
 namespace quatro {
 
+// A rotation, then a translation.
 struct Rigid3 {
   Eigen::Matrix3d rotation =
       Eigen::Matrix3d::Identity();                        // Orthonormal, det 1.
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // [m]
 
+  // The homogeneous matrix.
   Eigen::Matrix4d ToMatrix() const {
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     matrix.topLeftCorner<3, 3>() = rotation;
@@ -29,21 +31,25 @@ struct Rigid3 {
     return matrix;
   }
 
+  // All points moved.
   Points Apply(const PointsRef& points) const {
     return (rotation * points).colwise() + translation;
   }
 };
 
+// The point in frame b.
 inline Eigen::Vector3d operator*(const Rigid3& b_from_a,
                                  const Eigen::Vector3d& x_in_a) {
   return b_from_a.rotation * x_in_a + b_from_a.translation;
 }
 
+// First the right one, then the left one.
 inline Rigid3 operator*(const Rigid3& c_from_b, const Rigid3& b_from_a) {
   return {c_from_b.rotation * b_from_a.rotation,
           c_from_b * b_from_a.translation};
 }
 
+// The way back, a_from_b.
 inline Rigid3 Inverse(const Rigid3& b_from_a) {
   const Eigen::Matrix3d a_from_b = b_from_a.rotation.transpose();
   return {a_from_b, -(a_from_b * b_from_a.translation)};

@@ -17,12 +17,15 @@
 
 namespace quatro {
 
+// The kernels above, by name.
 enum class RobustKernelType { kNone, kHuber, kCauchy, kGemanMcClure };
 
+// A kernel and its width.
 struct RobustKernel {
   RobustKernelType type = RobustKernelType::kNone;
   double width = 1.0;  // c, in units of sqrt(s). Not used by kNone.
 
+  // rho(s).
   double Cost(double s) const {
     const double c2 = width * width;
     switch (type) {

@@ -37,6 +37,7 @@
 
 namespace quatro {
 
+// The minimum of (1), and how firmly it is held.
 struct RotationEstimate {
   // Turns a direction in the source frame into the target frame.
   Eigen::Matrix3d target_from_source = Eigen::Matrix3d::Identity();
@@ -68,6 +69,7 @@ inline std::optional<RotationEstimate> EstimateRotation(
   return EstimateRotationSvd(source, target, weights);
 }
 
+// The minimum of (5), and how firmly it is held.
 struct RigidEstimate {
   Rigid3 target_from_source;
 

@@ -25,6 +25,7 @@ T Constant(double x) {
   }
 }
 
+// A function's value and its first two derivatives at zero.
 template <int N>
 struct SecondDerivative {
   double value = 0.0;
@@ -36,6 +37,7 @@ struct SecondDerivative {
 template <int N>
 using JetOfJets = ceres::Jet<ceres::Jet<double, N>, N>;
 
+// Of f, a function of N jets, at zero.
 template <int N, typename Function>
 SecondDerivative<N> ComputeSecondDerivative(const Function& f) {
   using T = JetOfJets<N>;

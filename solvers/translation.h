@@ -25,6 +25,7 @@
 
 namespace quatro {
 
+// The best value, and who agrees with it.
 struct ConsensusEstimate {
   double value = 0.0;  // The minimum of (1), in the unit of the values.
   double cost = 0.0;   // (1) there, in [0, N).
@@ -37,6 +38,7 @@ std::optional<ConsensusEstimate> EstimateConsensus(
     const Eigen::Ref<const Eigen::VectorXd>& values,
     const Eigen::Ref<const Eigen::VectorXd>& bounds);
 
+// The best of each axis.
 struct TranslationEstimate {
   Eigen::Vector3d target_from_source;               // [m]
   Eigen::Vector3d cost;                             // (1) of each axis.

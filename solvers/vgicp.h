@@ -27,6 +27,7 @@
 
 namespace quatro {
 
+// The loop, the voxels, and the shape of a plane.
 struct VgicpOptions {
   LocalAlignmentOptions alignment;
   double voxel_size = 1.0;  // [m]
@@ -43,6 +44,7 @@ std::unique_ptr<AlignmentTerms> MakeVgicpTerms(const AlignmentCloud& source,
                                                const AlignmentCloud& target,
                                                const VgicpOptions& options);
 
+// Moves the source onto the target, from the given pose on.
 AlignmentSummary SolveVgicp(const AlignmentCloud& source,
                             const AlignmentCloud& target,
                             const Rigid3& initial_target_from_source,

@@ -26,6 +26,7 @@
 
 namespace quatro {
 
+// The minimum of (1), and how firmly it is held.
 struct YawEstimate {
   // Turns a direction in the source frame into the target frame.
   // [rad], in [-pi, pi].

@@ -21,6 +21,7 @@
 
 namespace quatro {
 
+// The minimum of (1), and how firmly it is held.
 struct YawTranslationEstimate {
   Rigid3 target_from_source;
   double yaw = 0.0;  // Its rotation, as RotationZ(yaw) [rad], in [-pi, pi].

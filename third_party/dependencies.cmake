@@ -22,6 +22,10 @@ if(QUATRO_BUILD_EXPERIMENTS OR QUATRO_BUILD_TESTS)
 endif()
 if(QUATRO_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(rapidcheck QUIET)
+  if(NOT rapidcheck_FOUND)
+    message(STATUS "No RapidCheck: no tests/properties")
+  endif()
 endif()
 
 # To compare with; never needed.

@@ -2,10 +2,13 @@
 # Installs the packages that building, testing and plotting need, those alone
 # that are missing, with apt on Debian and Ubuntu, and with npm those that HTML
 # reports are bundled with. Never asks.
-#   third_party/install.sh [--check] [--ci] [--peers]
-#     --check  install nothing; list what is missing, exit 1 if anything is
-#     --ci     with what only .ci/run needs
-#     --peers  with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
+#   third_party/install.sh [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers]
+#     --check     install nothing; list what is missing, exit 1 if anything is
+#     --ci        with what only .ci/run needs
+#     --docs      with what only docs/build.sh needs
+#     --tidy      with what only tests/tidy_test.sh needs
+#     --coverage  with what only tests/coverage.sh needs
+#     --peers     with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
 # Exits 1 if something could not be installed. Elsewhere it lists what to
 # install and exits 0: cmake finds out whether it is there.
 set -euo pipefail
@@ -14,18 +17,23 @@ set -euo pipefail
 packages=(g++ cmake ninja-build make libeigen3-dev libceres-dev
           libgoogle-glog-dev libgflags-dev libnanoflann-dev liblzf-dev
           nlohmann-json3-dev libembree-dev libgtest-dev libgmock-dev
-          libbenchmark-dev python3-numpy python3-matplotlib
+          libbenchmark-dev librapidcheck-dev python3-numpy python3-matplotlib
           pybind11-dev python3-dev python3-pytest python3-pip)
 # Those of others exclude Debian's.
 command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
+
+docs=(doxygen mkdocs mkdocs-material libjs-mathjax)
 
 check=false
 for arg in "$@"; do
   case "$arg" in
     --check) check=true ;;
-    --ci) packages+=(clang-format chromium) ;;
+    --ci) packages+=(clang-format clang libclang-rt-dev chromium "${docs[@]}") ;;
     --peers) packages+=(libopen3d-dev libpcl-dev) ;;
-    *) echo "usage: $0 [--check] [--ci] [--peers]" >&2; exit 2 ;;
+    --docs) packages+=("${docs[@]}") ;;
+    --tidy) packages+=(clang clang-tidy) ;;
+    --coverage) packages+=(gcovr) ;;
+    *) echo "usage: $0 [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers]" >&2; exit 2 ;;
   esac
 done
 
@@ -51,7 +59,8 @@ install.sh: no apt-get here; with your own package manager install
   a C++20 compiler, CMake (3.22 or newer), Ninja or make, Eigen (3.4),
   Ceres Solver (2.1 or newer), glog, gflags, nanoflann, liblzf,
   nlohmann-json (3), Embree (3), GoogleTest with GoogleMock,
-  Google Benchmark for quatro_benchmark, Python 3 with NumPy and Matplotlib; for the module its headers, pybind11
+  Google Benchmark for quatro_benchmark, RapidCheck for some tests,
+  Python 3 with NumPy and Matplotlib; for the module its headers, pybind11
   (2.10) and pip, for its tests pytest; for HTML reports Node.js (18) and npm
 END
   install_report_packages

@@ -14,6 +14,11 @@ function(quatro_target name)
         -fsanitize=${QUATRO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${name} PUBLIC -fsanitize=${QUATRO_SANITIZE})
   endif()
+  if(QUATRO_FUZZ)
+    # Coverage for who fuzzes; a program that does not ignores it.
+    target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)
+    target_link_options(${name} PUBLIC -fsanitize=fuzzer-no-link)
+  endif()
 endfunction()
 
 # One folder, one library; sources as <name>.cc, linked as quatro::<folder>.

@@ -386,15 +386,17 @@ void AddVerdict(const Adder& add) {
     EvidenceOptions evidence;
     evidence.voxel_size = pair.options.front_end.voxel_size;
     StructureHoldOptions hold = pair.options.structure_hold;
-    hold.max_distance = evidence.max_distance_in_voxels * evidence.voxel_size;
+    hold.max_distance = evidence.MaxDistance();
     const SurfaceCloud source = as_surface(pair.matched.source);
     const SurfaceCloud target = as_surface(pair.matched.target);
     const Rigid3& pose = *pair.summary.target_from_source();
     const int threads = pair.options.num_threads;
+    const MutualContacts contacts =
+        FindMutualContacts(source, target, pose, hold.max_distance, threads);
     benchmark::DoNotOptimize(
-        MeasureStructureHold(source, target, pose, hold, threads));
-    benchmark::DoNotOptimize(
-        MeasureGeometricEvidence(source, target, pose, evidence, threads));
+        MeasureStructureHold(source, target, pose, contacts, hold));
+    benchmark::DoNotOptimize(MeasureGeometricEvidence(
+        source, target, pose, contacts, evidence, threads));
   });
   add("verdict/quatro", Needs::kPose, [](const PairInput& pair, Counters* c) {
     VerdictOptions options = pair.options.verdict;

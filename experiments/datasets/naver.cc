@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "experiments/number_text.h"
+#include "features/cloud_text.h"
 #include "features/file.h"
 
 namespace quatro {
@@ -69,7 +70,7 @@ std::optional<std::int64_t> ParseStamp(const Row& row, std::string* error) {
   const auto parsed =
       std::from_chars(text.data(), text.data() + text.size(), stamp);
   if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size()) {
-    *error = row.where + ": '" + text + "' is not an integer";
+    *error = row.where + ": " + Quoted(text) + " is not an integer";
     return std::nullopt;
   }
   return stamp;
@@ -190,7 +191,7 @@ std::optional<std::map<std::int64_t, std::string>> ReadRecords(
   }
   if (scans.empty()) {
     *error = file.string() + ": has no records of a lidar" +
-             (lidar.empty() ? "" : " '" + lidar + "'");
+             (lidar.empty() ? "" : " " + Quoted(lidar));
     return std::nullopt;
   }
   *lidar_read = lidar;

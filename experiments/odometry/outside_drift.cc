@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "experiments/number_text.h"
+#include "features/cloud_text.h"
 
 namespace quatro {
 
@@ -16,7 +17,7 @@ std::optional<std::vector<OutsideResult>> ParseOutside(const std::string& text,
     const std::size_t equals = part.find('=');
     if (equals == 0 || equals == std::string_view::npos ||
         equals + 1 == part.size()) {
-      *error = "--outside: '" + std::string(part) + "' is not NAME=POSES";
+      *error = "--outside: " + Quoted(part) + " is not NAME=POSES";
       return std::nullopt;
     }
     results.push_back({std::string(part.substr(0, equals)),

@@ -10,6 +10,7 @@
 #include "experiments/protocols/added_yaw.h"
 #include "experiments/protocols/interval_pairs.h"
 #include "experiments/protocols/loop_pairs.h"
+#include "features/cloud_text.h"
 
 namespace quatro {
 namespace {
@@ -101,7 +102,7 @@ std::optional<std::vector<DistanceBin>> ParseBins(const std::string& text,
     const auto max =
         ends.size() == 2 ? ParseFiniteNumber(ends[1]) : std::nullopt;
     if (!min || !max) {
-      *error = "'" + std::string(field) + "' is no bin, must be like 4-6";
+      *error = Quoted(field) + " is no bin, must be like 4-6";
       return std::nullopt;
     }
     bins.push_back({*min, *max});

@@ -14,6 +14,7 @@
 
 #include "experiments/csv_line.h"
 #include "experiments/number_text.h"
+#include "features/cloud_text.h"
 #include "features/file.h"
 
 namespace quatro {
@@ -119,7 +120,7 @@ class CellReader {
     const std::string& text = Text();
     if (std::find(std::begin(kStatuses), std::end(kStatuses), text) ==
         std::end(kStatuses)) {
-      Fail("is no status: '" + text + "'");
+      Fail("is no status: " + Quoted(text));
     }
     return text;
   }
@@ -131,9 +132,9 @@ class CellReader {
     if (text.empty()) return std::nullopt;
     const auto value = ParseNumber(text, unit);
     if (!value) {
-      Fail("is no finite number: '" + text + "'");
+      Fail("is no finite number: " + Quoted(text));
     } else if (*value < min || *value > max) {
-      Fail("is out of range: '" + text + "'");
+      Fail("is out of range: " + Quoted(text));
     }
     return value;
   }
@@ -153,7 +154,7 @@ class CellReader {
     const char* const last = text.data() + text.size();
     const auto [end, code] = std::from_chars(text.data(), last, count);
     if (code != std::errc() || end != last || count < 0) {
-      Fail("is no count: '" + text + "'");
+      Fail("is no count: " + Quoted(text));
     }
     return count;
   }
@@ -178,7 +179,7 @@ class CellReader {
               ? std::nullopt
               : ParseNumber(part.substr(equals + 1), kMillisecond);
       if (!seconds || *seconds < 0.0 || equals == 0) {
-        Fail("has no 'stage=ms' in '" + std::string(part) + "'");
+        Fail("has no 'stage=ms' in " + Quoted(part));
         break;
       }
       stages.push_back({std::string(part.substr(0, equals)), *seconds});

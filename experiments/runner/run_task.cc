@@ -85,7 +85,7 @@ bool RunMethods::IsValid(std::string* error) const {
     return false;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!FindPairSolver(names[i], error)) return false;
+    if (!FindPairSolver(names[i], own, error)) return false;
     if (std::count(names.begin(), names.end(), names[i]) > 1) {
       *error = "method " + names[i] + " comes twice";
       return false;
@@ -135,8 +135,8 @@ TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
       used.ins.target_attitude = task.ins->target;
       used.ins.attitude_std = task.ins->std;
     }
-    RegistrationSummary summary =
-        FindPairSolver(name, &error)(*source, *target, matched, used);
+    RegistrationSummary summary = FindPairSolver(
+        name, methods.own, &error)(*source, *target, matched, used);
     if (!summary.error.empty()) {
       outcome.note = name + ": " + summary.error;
       result.status = "unreadable";

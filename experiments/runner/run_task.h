@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/own_method.h"
 #include "experiments/report/pair_view.h"
 #include "experiments/runner/pair_result.h"
 #include "experiments/runner/pair_task.h"
@@ -19,7 +20,9 @@
 namespace quatro {
 
 struct RunMethods {
-  std::vector<std::string> names;  // Of experiments/methods.h; no odometry.
+  // Of experiments/methods.h, but no odometry, or of `own`.
+  std::vector<std::string> names;
+  std::vector<OwnMethod> own;
 
   // For all of them; the solver is replaced.
   RegistrationOptions options;

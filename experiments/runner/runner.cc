@@ -7,6 +7,7 @@
 #include <mutex>
 #include <unordered_set>
 
+#include "features/cloud_text.h"
 #include "features/parallel.h"
 
 namespace quatro {
@@ -24,7 +25,7 @@ std::optional<Shard> ParseShard(const std::string& text, std::string* error) {
       return shard;
     }
   }
-  *error = "'" + text + "', must be k/n with 1 <= k <= n";
+  *error = Quoted(text) + ", must be k/n with 1 <= k <= n";
   return std::nullopt;
 }
 

@@ -219,6 +219,8 @@ TEST_F(NaverTest, BadInputIsNamed) {
   ExpectBad(In("b1"), "records_lidar.txt: line 2", "2 values, must have 3");
   Put("records_lidar.txt", "1.5, lidar0, a.pcd\n");
   ExpectBad(In("b1"), "records_lidar.txt: line 1", "'1.5' is not an integer");
+  Put("records_lidar.txt", "1\x1b[2J, lidar0, a.pcd\n");
+  ExpectBad(In("b1"), "records_lidar.txt: line 1", "'1?[2J' is not an integer");
   Put("records_lidar.txt", record + record);
   ExpectBad(In("b1"), "records_lidar.txt: line 2", "was there before");
   Put("records_lidar.txt", record);

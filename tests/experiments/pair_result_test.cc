@@ -227,6 +227,10 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
   EXPECT_EQ(ErrorWith("pair", ""), "column pair is empty");
   EXPECT_EQ(ErrorWith("method", ""), "column method is empty");
   EXPECT_EQ(ErrorWith("status", "fine"), "column status is no status: 'fine'");
+  // Nothing that a terminal would act upon.
+  for (const char* const column : {"status", "m22", "matches", "stages_ms"}) {
+    EXPECT_THAT(ErrorWith(column, "1\x1b[2J\x7f"), HasSubstr("'1?[2J?'"));
+  }
   for (const char* const column : {"distance_m",
                                    "true_yaw_deg",
                                    "true_tilt_deg",

@@ -16,6 +16,7 @@
 #include "experiments/runner/run_folder.h"
 #include "features/cloud_io.h"
 #include "features/file.h"
+#include "robust/quatro.h"
 #include "tests/support/room_scans.h"
 #include "tests/support/run_program.h"
 
@@ -320,6 +321,51 @@ TEST_F(RunTasksTest, TwoTasksOfOneNameAreRefused) {
   tasks_[1].name = tasks_[0].name;
   EXPECT_EQ(Run({}), RunEnd::kFailed);
   EXPECT_THAT(error_, HasSubstr("pair pair 0 comes twice"));
+}
+
+TEST_F(RunTasksTest, AnOwnMethodStandsBesideOurs) {
+  const Rigid3 anywhere{RotationZ(1.0), {3.0, 2.0, 1.0}};
+  methods_.own = {
+      {"same",
+       "",
+       [](const QuatroOptions& options) -> PoseSolver {
+         return [options](const PointsRef& p, const PointsRef& q) {
+           return SolveQuatro(p, q, options);
+         };
+       }},
+      {"anywhere", "", [anywhere](const QuatroOptions&) -> PoseSolver {
+         return [anywhere](const PointsRef&, const PointsRef&) {
+           PoseSummary summary;
+           summary.termination = PoseTermination::kSolved;
+           summary.target_from_source = anywhere;
+           return summary;
+         };
+       }}};
+  methods_.names = {"quatro", "same", "anywhere"};
+  std::string note;
+  const auto results = RunTask(tasks_[0], methods_, &note);
+  ASSERT_EQ(results.size(), 3u) << note;
+  ASSERT_TRUE(results[0].target_from_source);
+  ASSERT_TRUE(results[1].target_from_source);
+  ASSERT_TRUE(results[2].target_from_source);
+  EXPECT_EQ(results[1].method, "same");
+  EXPECT_EQ(results[1].target_from_source->ToMatrix(),
+            results[0].target_from_source->ToMatrix());
+  EXPECT_EQ(results[2].target_from_source->ToMatrix(), anywhere.ToMatrix());
+}
+
+TEST(RunMethodsTest, AnOwnNameIsKnownUnlessItIsOneOfOurs) {
+  RunMethods methods;
+  std::string error;
+  methods.names = {"quatro", "mine"};
+  EXPECT_FALSE(methods.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("--method=mine, must be one of"));
+  methods.own = {{"mine", "", nullptr}};
+  EXPECT_TRUE(methods.IsValid(&error)) << error;
+  methods.own[0].name = "quatro";
+  methods.names = {"quatro"};
+  EXPECT_FALSE(methods.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("there is a method quatro already"));
 }
 
 TEST(RunMethodsTest, NamesAreOfTheRegistryAndComeOnce) {

@@ -125,6 +125,13 @@ TEST_F(SolveProgramTest, MissingFile) {
                  "No such file or directory");
 }
 
+TEST_F(SolveProgramTest, ANameWithALineBreakIsToldInOneLine) {
+  ExpectBadInput("quatro_solve",
+                 {"--correspondences=" + PathOf("a\nb\x1b[2J.csv")},
+                 "a?b?[2J.csv",
+                 "No such file or directory");
+}
+
 TEST_F(SolveProgramTest, Folder) {
   std::filesystem::create_directory(PathOf("a.csv"));
   ExpectBadInput("quatro_solve",

@@ -192,6 +192,31 @@ TEST(KdTree, NearestAreTheNearestFirst) {
   }
 }
 
+TEST(KdTree, NearestWithinIsTheNearestIfThereIsOne) {
+  const Points points = RandomPoints(500, 2.0, 21);
+  const KdTree tree(points);
+  int num_found = 0;
+  for (const auto query : RandomPoints(200, 3.0, 22).colwise()) {
+    const Neighbor nearest = tree.Nearest(query, 1).front();
+    // The ball is closed.
+    const double distance = std::sqrt(nearest.squared_distance);
+    for (const double radius : {0.5, distance * (1.0 + 1e-12)}) {
+      const auto found = tree.NearestWithin(query, radius);
+      ASSERT_EQ(found.has_value(), nearest.squared_distance <= radius * radius);
+      if (!found) continue;
+      ++num_found;
+      EXPECT_EQ(found->index, nearest.index);
+      EXPECT_EQ(found->squared_distance, nearest.squared_distance);
+    }
+    EXPECT_FALSE(tree.NearestWithin(query, 0.999 * distance));
+  }
+  EXPECT_GT(num_found, 220);
+  EXPECT_LT(num_found, 380);
+  // Itself, at no distance; and exactly at the radius.
+  EXPECT_EQ(tree.NearestWithin(points.col(3), 0.0)->index, 3);
+  EXPECT_TRUE(KdTree(Points::Zero(3, 1)).NearestWithin({3.0, 0.0, 4.0}, 5.0));
+}
+
 TEST(KdTree, NearestIsEmptyForNoneAskedFor) {
   const KdTree tree(RandomPoints(10, 1.0, 1));
   EXPECT_THAT(tree.Nearest(Eigen::Vector3d::Zero(), 0), IsEmpty());
@@ -206,6 +231,7 @@ TEST(KdTree, EmptyTreeFindsNothing) {
   EXPECT_EQ(none.size(), 0);
   EXPECT_THAT(none.row_begin, ElementsAre(0));
   EXPECT_THAT(none.index, IsEmpty());
+  EXPECT_FALSE(tree.NearestWithin({0.0, 0.0, 0.0}, 1.0));
 }
 
 TEST(KdTree, UnboundedRadiusFindsEveryPoint) {

@@ -405,6 +405,21 @@ TEST_F(TupleTestTest, DependsOnTheSeedAlone) {
   EXPECT_NE(with_seed(1), with_seed(2));
 }
 
+TEST_F(TupleTestTest, DoesNotDependOnTheNumberOfThreads) {
+  const Points target = WithOutliers(250, 1);
+  for (const std::int64_t max_num_triples : {0, 20}) {
+    TupleTestOptions options;
+    options.max_num_triples = max_num_triples;
+    const auto expected = FilterByTupleTest(matches_, source_, target, options);
+    EXPECT_LT(expected.size(), matches_.size());
+    for (const int num_threads : {0, 2, 3}) {
+      options.num_threads = num_threads;
+      EXPECT_EQ(FilterByTupleTest(matches_, source_, target, options), expected)
+          << num_threads << " threads";
+    }
+  }
+}
+
 TEST_F(TupleTestTest, MoreTriplesOfTheSameSeedPassMore) {
   const Points target = WithOutliers(250, 1);
   std::vector<Match> before;
@@ -437,6 +452,14 @@ TEST_F(TupleTestTest, StopsAtTheMostTriples) {
     before = kept.size();
   }
   EXPECT_EQ(with_most(1'000'000), all);
+}
+
+TEST(TupleTestOptions, ThreadsMustNotBeNegative) {
+  TupleTestOptions options;
+  options.num_threads = -1;
+  std::string error;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("num_threads = -1"));
 }
 
 TEST(TupleTestOptions, MostTriplesMustNotBeNegative) {

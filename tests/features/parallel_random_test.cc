@@ -3,13 +3,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <set>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -40,6 +43,14 @@ TEST(Random, SameSeedSameSequence) {
       ASSERT_EQ(a.Next(), b.Next()) << "seed " << seed << ", draw " << i;
     }
   }
+}
+
+TEST(Random, SkippingIsDrawing) {
+  Random drawn(3);
+  for (int i = 0; i < 7; ++i) drawn.Next();
+  Random skipped(3);
+  skipped.Skip(7);
+  EXPECT_EQ(skipped.Next(), drawn.Next());
 }
 
 TEST(Random, ConsecutiveSeedsShareNoDraw) {
@@ -169,6 +180,55 @@ TEST(Parallel, SeveralThreadsRunAtOnce) {
     while (num_arrived < 2) std::this_thread::yield();
   });
   EXPECT_THAT(num_arrived.load(), Ge(2));
+}
+
+// From whichever thread; and none is left running.
+TEST(Parallel, WhatTheBodyThrowsReachesTheCaller) {
+  for (const int num_threads : {1, 2, 8}) {
+    for (const Eigen::Index bad : {0, 50, 99}) {
+      std::atomic<int> num_running{0};
+      const auto body = [&](Eigen::Index i, Eigen::Index) {
+        ++num_running;
+        const bool is_bad = i == bad;
+        --num_running;
+        if (is_bad) throw std::bad_alloc();
+      };
+      EXPECT_THROW(ParallelFor(num_threads, 100, 1, body), std::bad_alloc)
+          << num_threads << " threads, piece " << bad;
+      EXPECT_EQ(num_running, 0);
+    }
+  }
+}
+
+TEST(Parallel, AfterAThrowNoPieceIsBegun) {
+  int num_begun = 0;
+  EXPECT_THROW(ParallelFor(1,
+                           100,
+                           1,
+                           [&](Eigen::Index, Eigen::Index) {
+                             ++num_begun;
+                             throw std::bad_alloc();
+                           }),
+               std::bad_alloc);
+  EXPECT_EQ(num_begun, 1);
+}
+
+// A stack of 2^50 bytes is not to be had.
+TEST(Parallel, DoesWithoutThreadsThatCannotBeStarted) {
+  pthread_attr_t before, huge;
+  ASSERT_EQ(pthread_getattr_default_np(&before), 0);
+  ASSERT_EQ(pthread_attr_init(&huge), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&huge, std::size_t{1} << 50), 0);
+  ASSERT_EQ(pthread_setattr_default_np(&huge), 0);
+  EXPECT_THROW(std::thread([] {}).join(), std::system_error);
+  std::vector<int> visits(100, 0);
+  ParallelFor(8, 100, 1, [&](Eigen::Index i, Eigen::Index) {
+    ++visits[static_cast<std::size_t>(i)];
+  });
+  EXPECT_EQ(pthread_setattr_default_np(&before), 0);
+  EXPECT_THAT(visits, Each(1));
+  pthread_attr_destroy(&huge);
+  pthread_attr_destroy(&before);
 }
 
 }  // namespace

@@ -130,6 +130,34 @@ TEST_F(AutoOptionsTest, VoxelsAreNoSmallerThanTheSpacingOfTheSparserCloud) {
   EXPECT_LT(AutoVoxelSize(dense_, dense_), 0.25);
 }
 
+TEST_F(AutoOptionsTest, NormalsReachFromOneRingToTheNext) {
+  // Two walls in rows of points 0.02 m apart.
+  for (const double gap : {0.4, 0.8}) {
+    Points rows(3, 20000);
+    for (int i = 0; i < 20000; ++i) {
+      const double along = 0.02 * (i % 500);
+      const double up = gap * (i / 1000);
+      if (i % 1000 < 500) {
+        rows.col(i) << 10.0, along, up;
+      } else {
+        rows.col(i) << along, -5.0, up;
+      }
+    }
+    const double normal_radius = 3.0 * AutoVoxelSize(rows, rows);
+    EXPECT_GT(normal_radius, gap) << gap;
+    EXPECT_LT(normal_radius, 2.0 * gap) << gap;
+    EXPECT_EQ(AutoVoxelSize(dense_, rows), AutoVoxelSize(rows, dense_));
+    EXPECT_GT(3.0 * AutoVoxelSize(dense_, rows), gap);
+  }
+}
+
+TEST_F(AutoOptionsTest, ALineStaysAsItIs) {
+  Points line = Points::Zero(3, 2000);
+  line.row(0).setLinSpaced(0.0, 20.0);
+  const double size = AutoVoxelSize(line, line);
+  EXPECT_LT(size, 0.02);
+}
+
 TEST_F(AutoOptionsTest, HaveTwoDigits) {
   const double size = AutoVoxelSize(dense_, dense_);
   const double thousandths = 1000.0 * size;  // Sizes here are 0.10-0.99 m.

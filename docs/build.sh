@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# Builds the site, the guide and the reference of every public header, into one
+# folder that can be read from disk or served by anything.
+#   docs/build.sh [OUTPUT]     build/docs by default; OUTPUT/index.html
+# A warning of mkdocs or Doxygen fails it, and so does a link that leads nowhere
+# or anything that a browser would fetch from another host. Exits with 2 if a
+# tool is missing: third_party/install.sh --docs installs them.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+output=${1:-$root/build/docs}
+if (($# > 1)) || [[ $output == -* ]]; then
+  echo "usage: $0 [OUTPUT]" >&2
+  exit 2
+fi
+mkdir -p "$output"
+output=$(cd "$output" && pwd)
+cd "$root"
+
+mathjax=/usr/share/javascript/mathjax
+for tool in doxygen mkdocs "$mathjax/MathJax.js" /usr/share/mkdocs/themes/material; do
+  if [[ ! -e $tool ]] && ! command -v "$tool" >/dev/null; then
+    echo "build.sh: no $tool; third_party/install.sh --docs installs it" >&2
+    exit 2
+  fi
+done
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# The reference. Fields may go without a comment, nothing else.
+{
+  cat docs/doxygen/Doxyfile
+  printf 'PROJECT_NUMBER = %s\n' "$(sed -nE 's/^project\(quatro VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)"
+  printf 'OUTPUT_DIRECTORY = "%s"\nHTML_OUTPUT = api\n' "$scratch/pages"
+  printf 'WARN_LOGFILE = "%s"\n' "$scratch/warnings"
+} >"$scratch/Doxyfile"
+mkdir "$scratch/pages"
+doxygen "$scratch/Doxyfile"
+if grep -vE '\((variable|macro definition)\) of .* is not documented\.$' "$scratch/warnings" >&2; then
+  echo "build.sh: Doxygen warns" >&2
+  exit 1
+fi
+rm -f "$scratch/pages/api/doxygen.svg"
+
+# The guide, beside it: so that mkdocs checks the links between them.
+/usr/bin/python3 docs/assemble.py "$scratch/pages"
+mkdir -p "$scratch/pages/mathjax"
+cp -rL --parents "$mathjax"/{MathJax.js,config/TeX-AMS_CHTML-full.js,jax/output/CommonHTML/fonts/TeX} \
+    "$mathjax"/{fonts/HTML-CSS/TeX/woff,extensions/MathZoom.js,extensions/MathMenu.js} "$scratch"
+mv "$scratch$mathjax"/* "$scratch/pages/mathjax"
+sed "s#^docs_dir: .*#docs_dir: '$scratch/pages'#" docs/mkdocs.yml >"$scratch/mkdocs.yml"
+mkdocs build --quiet --strict --config-file "$scratch/mkdocs.yml" --site-dir "$output"
+rm -f "$output/sitemap.xml" "$output/sitemap.xml.gz"
+/usr/bin/python3 docs/check_site.py "$output"
+echo "$output/index.html"

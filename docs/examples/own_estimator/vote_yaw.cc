@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// An estimator of one's own, in every table of quatro_experiment.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "experiments/experiment_program.h"
+#include "features/random.h"
+#include "robust/consensus.h"
+#include "solvers/translation.h"
+#include "solvers/yaw_translation.h"
+
+namespace {
+
+constexpr int kNumBins = 720;
+constexpr int kNumPairs = 20000;
+
+// The turn that most pairs of matches vote for; a pair votes if its length in
+// the plane is kept.
+double VoteYaw(const quatro::PointsRef& source,
+               const quatro::PointsRef& target,
+               const quatro::QuatroOptions& options) {
+  std::array<int, kNumBins> votes{};
+  quatro::Random random(options.seed);
+  const auto num_matches = static_cast<std::uint64_t>(source.cols());
+  for (int k = 0; k < kNumPairs; ++k) {
+    const auto i = static_cast<Eigen::Index>(random.Below(num_matches));
+    const auto j = static_cast<Eigen::Index>(random.Below(num_matches));
+    const Eigen::Vector2d a = (source.col(i) - source.col(j)).head<2>();
+    const Eigen::Vector2d b = (target.col(i) - target.col(j)).head<2>();
+    const double gap = std::abs(a.norm() - b.norm());
+    if (a.norm() < 1.0 || gap > 2.0 * options.noise_bound) continue;
+    const double turn = std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x());
+    const double part = turn / (2.0 * M_PI);
+    const auto bin = static_cast<int>(kNumBins * (part - std::floor(part)));
+    ++votes[static_cast<std::size_t>(std::min(bin, kNumBins - 1))];
+  }
+  const auto most = std::max_element(votes.begin(), votes.end());
+  const auto bin = static_cast<double>(most - votes.begin());
+  return (bin + 0.5) * 2.0 * M_PI / kNumBins;
+}
+
+quatro::PoseSummary SolveByVotes(const quatro::PointsRef& source,
+                                 const quatro::PointsRef& target,
+                                 const quatro::QuatroOptions& options) {
+  quatro::PoseSummary summary;
+  summary.num_needed = 2;
+  summary.num_distinct = source.cols();
+  if (source.cols() < 2) {
+    summary.termination = quatro::PoseTermination::kInsufficient;
+    summary.message = "a heading needs two matches";
+    return summary;
+  }
+  quatro::Rigid3 pose;
+  pose.rotation = quatro::RotationZ(VoteYaw(source, target, options));
+  pose.translation = quatro::EstimateTranslation(
+                         pose.rotation * source, target, options.noise_bound)
+                         ->target_from_source;
+
+  // Twice the least squares of those that agree.
+  for (int round = 0; round < 2; ++round) {
+    const auto agreeing =
+        quatro::FindAgreeing(source, target, pose, options.noise_bound);
+    const auto fit = quatro::EstimateYawTranslation(
+        source(Eigen::all, agreeing),
+        target(Eigen::all, agreeing),
+        quatro::Weights::Ones(static_cast<Eigen::Index>(agreeing.size())));
+    if (fit) pose = fit->target_from_source;
+  }
+  summary.translation_inliers =
+      quatro::FindAgreeing(source, target, pose, options.noise_bound);
+  summary.consistent = summary.translation_inliers;
+  summary.num_consistent = static_cast<Eigen::Index>(summary.consistent.size());
+  summary.num_translation_inliers = summary.num_consistent;
+  summary.target_from_source = pose;
+  summary.model = quatro::PoseModel::kYawTranslation;
+  summary.termination = quatro::PoseTermination::kSolved;
+  summary.message = "solved";
+  return summary;
+}
+
+quatro::PoseSolver MakeVoteYaw(const quatro::QuatroOptions& options) {
+  return [options](const quatro::PointsRef& source,
+                   const quatro::PointsRef& target) {
+    return SolveByVotes(source, target, options);
+  };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return quatro::RunExperimentProgram(
+      argc, argv, {{"vote_yaw", "the yaw with the most votes", MakeVoteYaw}});
+}

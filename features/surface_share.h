@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// How much of a cloud shows a surface, at a radius, and not merely a line:
+//
+//   share(r) = mean_i [ |N_i| >= 5  and  lambda_2 > lambda_1 / 10 ],
+//   N_i = { p_j : |p_j - p_i| <= r },   lambda_1 >= lambda_2 >= lambda_3 of the
+//                                       scatter of N_i.
+//
+// A scan of few beams is dense along its rings and empty between them. A radius
+// that does not reach from one ring to the next sees lines, of which there is
+// no normal.
+
+#ifndef QUATRO_FEATURES_SURFACE_SHARE_H_
+#define QUATRO_FEATURES_SURFACE_SHARE_H_
+
+#include "features/kd_tree.h"
+
+namespace quatro {
+
+// In [0, 1], over at most 2000 points spread evenly over the indices of
+// `tree`; `radius` [m]. Zero without points.
+double SurfaceShare(const KdTree& tree, double radius);
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_SURFACE_SHARE_H_

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Share of lines that the tests of a folder and those after it reach, and fails
+# below 90 % in features, solvers or robust. build-coverage/coverage/ gets a page.
+#   tests/coverage.sh
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=third_party/setup.sh
+source third_party/setup.sh
+
+bash third_party/install.sh --coverage
+quatro_configure coverage build-coverage
+# Counters of the last run would add to this one's.
+find build-coverage -name '*.gcda' -delete
+mapfile -t targets < <(sed -nE 's/^quatro_test\(((features|solvers|robust)\/[a-z0-9_]+).*/\1_test/p' tests/CMakeLists.txt |
+                       tr / _)
+quatro_build build-coverage "${targets[@]}"
+ctest --test-dir build-coverage -R '^(features|solvers|robust)/' -LE slow -j "$(quatro_jobs)" --output-on-failure
+
+mkdir -p build-coverage/coverage
+report() {
+  gcovr --root . --object-directory build-coverage --exclude-throw-branches "$@"
+}
+report --filter '(features|solvers|robust)/' --html-details build-coverage/coverage/index.html
+for folder in features solvers robust; do
+  printf '%s: ' "$folder"
+  report --filter "$folder/" --fail-under-line 90 | grep '^TOTAL'
+done
+echo "build-coverage/coverage/index.html"

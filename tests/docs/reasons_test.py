@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""Every reason that the library or --explain can give is in docs/parameters.md,
+and that page names no other: reasons_test.py
+
+Reasons are there in backquotes in the first column of a table, with "..." for
+what varies; in the sources they are the string literals of several words in the
+files below, adjacent ones joined. A refused option ("..., must be > 0") is one
+reason for all.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOURCES = ['robust/verdict.cc', 'robust/quatro.cc', 'robust/teaser.cc', 'robust/fgr.cc',
+           'robust/ransac.cc', 'robust/arc_consensus.cc', 'robust/polish.cc', 'robust/refinement.cc',
+           'robust/ins.cc', 'robust/local_registration.cc', 'robust/gnc.cc', 'robust/front_end.cc',
+           'robust/registration.cc', 'solvers/held_directions.cc', 'solvers/local_alignment.cc',
+           'solvers/vgicp.cc', 'features/voxel_grid.cc', 'experiments/explain.cc']
+LITERAL = re.compile(r'"((?:\\.|[^"\\])*)"')
+
+
+def advice_alone(text):
+    """Of explain.cc what says what to do: its other literals describe."""
+    return text[text.index('std::vector<std::string> Advice'):text.index('return advice;\n}')]
+
+
+def literals(path):
+    text = path.read_text()
+    if path.name == 'explain.cc':
+        text = advice_alone(text)
+    text = re.sub(r'^\s*(//|#).*$', '', text, flags=re.M)
+    text = re.sub(r'"\s*\n?\s*"', '', text)  # Adjacent literals are one.
+    found = [re.sub(r'\s+', ' ', literal).strip(' ;,') for literal in LITERAL.findall(text)]
+    return [literal.split(' %.3g')[0] for literal in found if '%.*f' not in literal]
+
+
+def is_reason(text):
+    return text.count(' ') >= 2 and 'must be' not in text
+
+
+def reasons_of_the_page():
+    page = (ROOT / 'docs/parameters.md').read_text()
+    cells = re.findall(r'^\| (`.*?) \| ', page, flags=re.M)
+    return [re.sub(r'\s+', ' ', reason) for cell in cells for reason in re.findall(r'`([^`]+)`', cell)
+            if is_reason(reason)]
+
+
+def main():
+    said = {literal: name for name in SOURCES for literal in literals(ROOT / name)}
+    page = reasons_of_the_page()
+    sources = {literal: name for literal, name in said.items() if is_reason(literal)}
+    errors = [f'{name}: "{literal}" is not in docs/parameters.md' for literal, name in sources.items()
+              if not any(literal in reason for reason in page)]
+    longest_first = sorted((literal for literal in said if literal), key=len, reverse=True)
+    for reason in page:
+        rest = reason
+        for literal in longest_first:
+            rest = re.sub(rf'(?<!\w){re.escape(literal)}(?!\w)', '', rest)
+        if re.search(r'\w', rest):
+            errors.append(f'docs/parameters.md: "{reason}": the sources do not say "{rest.strip()}"')
+    if len(sources) < 60 or len(page) < 60:
+        errors.append(f'only {len(sources)} reasons in the sources, {len(page)} in the page')
+    print('\n'.join(errors), file=sys.stderr, end='\n' if errors else '')
+    sys.exit(1 if errors else 0)
+
+
+if __name__ == '__main__':
+    main()

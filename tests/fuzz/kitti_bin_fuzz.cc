@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A KITTI .bin, and the same one written again.
+
+#include "features/kitti_bin.h"
+
+#include "tests/fuzz/cloud_checks.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  std::string error;
+  const auto cloud = quatro::ParseKittiBin(quatro::AsText(data, size), &error);
+  quatro::CheckCloud(cloud, error);
+  if (!cloud) return 0;
+  const auto bytes = quatro::FormatKittiBin(*cloud, &error);
+  CHECK(bytes) << error;
+  const auto again = quatro::ParseKittiBin(*bytes, &error);
+  CHECK(again) << error;
+  CHECK_EQ(again->num_dropped, 0);
+  CHECK(again->points == cloud->points);
+  return 0;
+}

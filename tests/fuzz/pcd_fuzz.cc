@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A PCD of any kind, and the same points written as a binary one.
+
+#include "features/pcd.h"
+
+#include "tests/fuzz/cloud_checks.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  std::string error;
+  const auto cloud = quatro::ParsePcd(quatro::AsText(data, size), &error);
+  quatro::CheckCloud(cloud, error);
+  if (!cloud) return 0;
+  const auto bytes = quatro::FormatPcd(*cloud, &error);
+  if (!bytes) {
+    quatro::CheckIsOneLine(error);  // Beyond float32.
+    return 0;
+  }
+  const auto again = quatro::ParsePcd(*bytes, &error);
+  CHECK(again) << error;
+  CHECK_EQ(again->num_dropped, 0);
+  CHECK(again->points == cloud->points.cast<float>().cast<double>());
+  return 0;
+}

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Fuzzes the readers and programs, each target from its seeds in
+# tests/fuzz/corpus; builds nothing (see preset fuzz, target
+# quatro_fuzz_targets).
+#   tests/fuzz/run.sh [--seconds=N | --runs=N] [--build=FOLDER] [TARGET...]
+#     --seconds  for each target; 5
+#     --runs     as many inputs in place of a time: the same ones each time
+#     --build    build-fuzz
+#     TARGET     g2o, pcd, ...; all that are built
+# Inputs that reach new code are kept in FOLDER/fuzz/corpus and gone on with;
+# findings in FOLDER/fuzz/findings: `FOLDER/fuzz/TARGET_fuzz FILE` shows one
+# again. FOLDER/fuzz/results.csv gets a line a target. Exits with 1 if there
+# was a finding, 2 for a wrong argument.
+set -euo pipefail
+seeds=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/corpus
+build=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/build-fuzz
+limit=(-max_total_time=5)
+targets=()
+
+is_count() { [[ $1 =~ ^[1-9][0-9]{0,8}$ ]]; }
+for arg in "$@"; do
+  value=${arg#*=}
+  case "$arg" in
+    --seconds=*) is_count "$value" && limit=(-max_total_time="$value") || limit=() ;;
+    --runs=*) is_count "$value" && limit=(-runs="$value") || limit=() ;;
+    --build=*) build=$value ;;
+    -*) limit=() ;;
+    *) targets+=("$arg") ;;
+  esac
+  if ((${#limit[@]} == 0)); then
+    echo "run.sh: $arg: must be --seconds=N, --runs=N, --build=FOLDER or a target" >&2
+    exit 2
+  fi
+done
+if ((${#targets[@]} == 0)); then
+  for program in "$build"/fuzz/*_fuzz; do
+    targets+=("$(basename "${program%_fuzz}")")
+  done
+fi
+for target in "${targets[@]}"; do
+  if [[ ! -x $build/fuzz/${target}_fuzz ]]; then
+    echo "run.sh: $build/fuzz/${target}_fuzz: is not there; build quatro_fuzz_targets with preset fuzz" >&2
+    exit 2
+  fi
+done
+
+results=$build/fuzz/results.csv
+mkdir -p "$build/fuzz/findings" "$build/fuzz/logs"
+[[ -e $results ]] || echo "target,exit_code,cpu_s,executions,edges,corpus" >"$results"
+# What is freed is not kept back for long: memory is limited.
+export ASAN_OPTIONS=quarantine_size_mb=16:${ASAN_OPTIONS:-}
+export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
+TIMEFORMAT='%U %S'
+
+#   fuzz <target>: one line on what came of it, and one in $results
+fuzz() {
+  local log=$build/fuzz/logs/$1.log corpus=$build/fuzz/corpus/$1 code=0 cpu
+  local program=$build/fuzz/${1}_fuzz options=()
+  mkdir -p "$corpus" "$seeds/$1"
+  [[ -e $seeds/../$1.dict ]] && options=(-dict="$seeds/../$1.dict")
+  # The programs' own output is dropped (3): it would be all of the log.
+  cpu=$({ time "$program" "${limit[@]}" -seed=1 -timeout=5 -rss_limit_mb=512 \
+      -max_len=4096 -close_fd_mask=3 -print_final_stats=1 "${options[@]}" \
+      -artifact_prefix="$build/fuzz/findings/$1-" \
+      "$corpus" "$seeds/$1" >"$log" 2>&1 </dev/null; } 2>&1) || code=$?
+  local executions edges size
+  cpu=$(awk '{printf "%.0f", $1 + $2}' <<<"$cpu")
+  executions=$(sed -nE 's/^stat::number_of_executed_units: *//p' "$log")
+  edges=$(sed -nE 's/.* cov: ([0-9]+) .*/\1/p' "$log" | tail -n 1)
+  size=$(sed -nE 's/.* corp: ([0-9]+).*/\1/p' "$log" | tail -n 1)
+  echo "$1,$code,$cpu,$executions,$edges,$size" >>"$results"
+  if ((code != 0)); then
+    echo "$1: FINDING, see $log"
+    return 1
+  fi
+  echo "$1: $executions inputs, $edges edges, ${cpu} s of CPU, no finding"
+}
+
+code=0
+for target in "${targets[@]}"; do
+  fuzz "$target" || code=1
+done
+exit "$code"

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Fails if clang-tidy finds something; .clang-tidy says what it looks for.
+#   tests/tidy_test.sh [source file...]
+# Without files, all sources but the tests'. build-tidy/ gets the compile
+# commands; nothing is built.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=third_party/setup.sh
+source third_party/setup.sh
+
+command -v clang-tidy >/dev/null || {
+  echo "tidy_test.sh: no clang-tidy; third_party/install.sh --tidy installs it" >&2
+  exit 2
+}
+cmake -S . -B build-tidy -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
+      -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+if (($# > 0)); then
+  sources=("$@")
+else
+  list=$(git ls-files -- 'features/*.cc' 'solvers/*.cc' 'robust/*.cc' 'experiments/*.cc' ':!experiments/peers')
+  mapfile -t sources <<<"$list"
+fi
+printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(quatro_jobs)" clang-tidy -p build-tidy --quiet 2>/dev/null || {
+  echo "tidy: of ${#sources[@]} files, those above" >&2
+  exit 1
+}
+echo "tidy: ${#sources[@]} files checked"
