@@ -220,12 +220,20 @@ bool ViewOptions::IsValid(std::string* error) const {
   return false;
 }
 
-ViewOptions MakeViewOptions(std::size_t num_pairs) {
-  // In base64 a point of each cloud takes 16 bytes, a match of one method 19.
-  const auto n = static_cast<Eigen::Index>(std::max<std::size_t>(num_pairs, 1));
+ViewOptions MakeViewOptions(std::size_t num_pairs, std::size_t num_methods) {
+  constexpr double kPageBytes = 24e6;
+  constexpr double kMethodBytes = 1500.0;  // But for its matches.
+  const auto num = static_cast<double>(num_methods);
+  const double bytes =
+      kPageBytes / static_cast<double>(std::max<std::size_t>(num_pairs, 1)) -
+      kMethodBytes * num;
+  // In base64 a point of both clouds takes 16 bytes, a match as much and 3 more
+  // for each method.
   ViewOptions options;
-  options.max_points = std::clamp<Eigen::Index>(1'000'000 / n, 2'000, 6'000);
-  options.max_matches = std::clamp<Eigen::Index>(300'000 / n, 600, 2'000);
+  options.max_points =
+      static_cast<Eigen::Index>(std::clamp(0.7 * bytes / 16.0, 500.0, 6000.0));
+  options.max_matches = static_cast<Eigen::Index>(
+      std::clamp(0.3 * bytes / (16.0 + 3.0 * num), 200.0, 2000.0));
   return options;
 }
 

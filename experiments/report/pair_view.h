@@ -54,8 +54,8 @@ struct ViewOptions {
   bool IsValid(std::string* error) const;
 };
 
-// For so many pairs on one page, 24 MB in all at most.
-ViewOptions MakeViewOptions(std::size_t num_pairs);
+// For so many pairs on one page, of 25 MB or so at most: the fewer, the finer.
+ViewOptions MakeViewOptions(std::size_t num_pairs, std::size_t num_methods);
 
 struct ViewedPair {
   std::string name;

@@ -117,7 +117,8 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
     tasks[i].keeps_view = i < experiment.num_views;
   }
   RunMethods methods = experiment.methods;
-  methods.view = MakeViewOptions(std::min(experiment.num_views, tasks.size()));
+  methods.view = MakeViewOptions(std::min(experiment.num_views, tasks.size()),
+                                 methods.names.size());
   return RunTasks(TakeShard(tasks, experiment.shard),
                   methods,
                   control,

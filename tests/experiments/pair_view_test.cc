@@ -230,14 +230,21 @@ TEST_F(PairViewTest, WithoutTruthNothingIsCalledRight) {
 
 TEST(ViewOptions, ManyPairsFitOnAPage) {
   for (const std::size_t n : {0u, 1u, 47u, 200u, 500u}) {
-    const ViewOptions options = MakeViewOptions(n);
-    std::string error;
-    EXPECT_TRUE(options.IsValid(&error)) << error;
-    EXPECT_LE(n * static_cast<std::size_t>(16 * options.max_points +
-                                           19 * options.max_matches),
-              24'000'000u);
+    for (const std::size_t m : {1u, 2u, 11u}) {
+      const ViewOptions options = MakeViewOptions(n, m);
+      std::string error;
+      EXPECT_TRUE(options.IsValid(&error)) << error;
+      const auto bytes = static_cast<std::size_t>(16 * options.max_points +
+                                                  16 * options.max_matches);
+      const auto method_bytes =
+          static_cast<std::size_t>(3 * options.max_matches + 1500);
+      EXPECT_LE(n * (bytes + m * method_bytes), 25'000'000u);
+    }
   }
-  EXPECT_GT(MakeViewOptions(47).max_points, MakeViewOptions(500).max_points);
+  EXPECT_GT(MakeViewOptions(47, 1).max_points,
+            MakeViewOptions(500, 1).max_points);
+  EXPECT_GT(MakeViewOptions(500, 1).max_points,
+            MakeViewOptions(500, 11).max_points);
 }
 
 TEST(ViewOptions, ErrorNamesTheField) {
