@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/report/base64.h"
+#include "experiments/report/match_stages.h"
 #include "experiments/report/quantized_points.h"
 #include "experiments/report/thinning.h"
 #include "features/random.h"
@@ -21,9 +22,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Indices = std::vector<Eigen::Index>;
 
-constexpr int kIsConsistent = 1;
-constexpr int kIsAgreeing = 2;
-
 Json Rows(const std::optional<Rigid3>& pose) {
   if (!pose) return nullptr;
   const Eigen::Matrix4d matrix = pose->ToMatrix();
@@ -32,32 +30,6 @@ Json Rows(const std::optional<Rigid3>& pose) {
     rows.push_back(std::vector<double>(row.begin(), row.end()));
   }
   return rows;
-}
-
-// Of matches: a bit for each stage that they outlived.
-std::vector<int> FatesOf(const RegistrationSummary& summary) {
-  std::vector<int> fates(
-      static_cast<std::size_t>(summary.matched_source.cols()));
-  const auto mark = [&](const Indices& columns, int bit) {
-    for (const Eigen::Index i : columns) {
-      fates[static_cast<std::size_t>(i)] |= bit;
-    }
-  };
-  mark(summary.solution.consistent, kIsConsistent);
-  mark(summary.solution.translation_inliers, kIsAgreeing);
-  return fates;
-}
-
-// Of matches; 0 of those that were not consistent. Empty if there are none.
-std::vector<double> WeightsOf(const PoseSummary& solution,
-                              Eigen::Index num_matches) {
-  if (solution.match_weights.empty()) return {};
-  std::vector<double> weights(static_cast<std::size_t>(num_matches));
-  for (std::size_t k = 0; k < solution.consistent.size(); ++k) {
-    weights[static_cast<std::size_t>(solution.consistent[k])] =
-        solution.match_weights[k];
-  }
-  return weights;
 }
 
 bool HasSameMatches(const RegistrationSummary& a,
@@ -84,7 +56,7 @@ Indices ChooseMatches(const RegistrationSummary& matched,
   std::vector<bool> is_kept(static_cast<std::size_t>(num_matches));
   for (const MethodAnswer& answer : answers) {
     if (!HasSameMatches(answer.summary, matched)) continue;
-    const std::vector<int> fates = FatesOf(answer.summary);
+    const std::vector<int> fates = FindMatchStages(answer.summary).fates;
     for (std::size_t i = 0; i < fates.size(); ++i) {
       if (fates[i] != 0) is_kept[i] = true;
     }
@@ -105,13 +77,6 @@ Indices ChooseMatches(const RegistrationSummary& matched,
   return chosen;
 }
 
-struct StageCounts {
-  long matches = 0;
-  long consistent = 0;
-  long weighted = 0;
-  long agreeing = 0;
-};
-
 Json Describe(const StageCounts& counts) {
   return {{"matches", counts.matches},
           {"consistent", counts.consistent},
@@ -119,27 +84,11 @@ Json Describe(const StageCounts& counts) {
           {"agreeing", counts.agreeing}};
 }
 
-// Of the matches for which `is_counted`, or of all if it is empty.
-StageCounts CountStages(const std::vector<int>& fates,
-                        const std::vector<double>& weights,
-                        const std::vector<bool>& is_counted) {
-  StageCounts counts;
-  for (std::size_t i = 0; i < fates.size(); ++i) {
-    if (!is_counted.empty() && !is_counted[i]) continue;
-    ++counts.matches;
-    if (fates[i] & kIsConsistent) ++counts.consistent;
-    if (fates[i] & kIsAgreeing) ++counts.agreeing;
-    if (!weights.empty() && weights[i] >= 0.5) ++counts.weighted;
-  }
-  return counts;
-}
-
 Json DescribeStages(const RegistrationSummary& summary,
                     const ViewedPair& pair,
                     const Indices& chosen) {
-  const std::vector<int> fates = FatesOf(summary);
-  const std::vector<double> weights =
-      WeightsOf(summary.solution, summary.matched_source.cols());
+  const MatchStages found = FindMatchStages(summary);
+  const auto& [fates, weights] = found;
   std::string fate_bytes, weight_bytes;
   for (const Eigen::Index i : chosen) {
     const auto k = static_cast<std::size_t>(i);
@@ -152,7 +101,7 @@ Json DescribeStages(const RegistrationSummary& summary,
   Json stages = {
       {"fate", EncodeBase64(fate_bytes)},
       {"weight", weights.empty() ? Json() : Json(EncodeBase64(weight_bytes))},
-      {"counts", Describe(CountStages(fates, weights, {}))},
+      {"counts", Describe(CountStages(found, {}))},
       {"right", nullptr}};
   if (pair.true_target_from_source) {
     std::vector<bool> is_right(fates.size());
@@ -162,9 +111,7 @@ Json DescribeStages(const RegistrationSummary& summary,
                                              pair.noise_bound)) {
       is_right[static_cast<std::size_t>(i)] = true;
     }
-    if (!is_right.empty()) {
-      stages["right"] = Describe(CountStages(fates, weights, is_right));
-    }
+    stages["right"] = Describe(CountStages(found, is_right));
   }
   return stages;
 }

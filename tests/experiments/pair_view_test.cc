@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/report/base64.h"
+#include "experiments/report/match_stages.h"
 #include "experiments/report/quantized_points.h"
 #include "experiments/report/thinning.h"
 #include "tests/support/matched_problems.h"
@@ -22,9 +23,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr int kIsConsistent = 1;
-constexpr int kIsAgreeing = 2;
 
 // The inverse of EncodeBase64().
 std::string DecodeBase64(const std::string& text) {

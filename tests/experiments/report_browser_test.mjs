@@ -208,6 +208,17 @@ async function look(page, ...looks) {
   console.log(`${page.split('/').pop()}: ${Date.now() - begin} ms`);
 }
 
+// Without WebGL all is there but the view.
+async function lookWithoutWebgl(page) {
+  const browser = await Browser.open(chromium, pathToFileURL(page).href, ['--disable-3d-apis']);
+  try {
+    assert.match(await browser.evaluate(`document.querySelector('.viewer').textContent`), /has no WebGL/);
+    assert.match(await browser.evaluate(`document.querySelector('.notes').textContent`), /registered/);
+  } finally {
+    await browser.close();
+  }
+}
+
 try {
   writePairs();
   run('quatro_experiment', ['--protocol=pairs', `--pairs=${join(folder, 'pairs.csv')}`, '--preset=indoor',
@@ -218,6 +229,7 @@ try {
   checkPose(join(folder, 'pair.html'));
   await look(join(folder, 'run/report.html'), lookAtRun, lookAtView);
   await look(join(folder, 'pair.html'), lookAtView);
+  await lookWithoutWebgl(join(folder, 'pair.html'));
 } finally {
   rmSync(folder, {recursive: true, force: true});
 }

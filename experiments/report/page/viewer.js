@@ -46,7 +46,7 @@ export class Viewer {
         el('p', {class: 'keys'}, 'Drag to turn, wheel to zoom, right button to move. Keys: 1–4 stages, space before ' +
            'and after, L lift, R rejected, T from above.'));
     this.element.addEventListener('keydown', (event) => this.key(event));
-    onTheme(() => this.pair && (this.scene.recolor(), this.showMatches()));
+    onTheme(() => this.scene && (this.scene.recolor(), this.showMatches()));
   }
 
   // `pair` of view_data.js, one of its methods.
@@ -54,10 +54,7 @@ export class Viewer {
     const isOther = this.pair !== pair;
     this.pair = pair;
     this.method = method;
-    if (!this.scene) {
-      this.scene = new PairScene(this.canvas);
-      this.motion = new Motion((matrix) => this.scene.setPose(matrix));
-    }
+    if (!this.scene && !this.start()) return;
     if (isOther) {
       this.scene.matches = null;
       this.scene.setPair(pair);
@@ -67,6 +64,18 @@ export class Viewer {
     if (!hasStage(method.stages, this.state.stage)) this.state.stage = 1;
     this.update();
     this.motion.jump(this.matrix());
+  }
+
+  // Whether there can be a view.
+  start() {
+    try {
+      this.scene = new PairScene(this.canvas);
+    } catch {
+      this.element.replaceChildren(el('p', {class: 'note'}, 'This browser has no WebGL, hence no 3D view.'));
+      return false;
+    }
+    this.motion = new Motion((matrix) => this.scene.setPose(matrix));
+    return true;
   }
 
   hasPose(name) {
