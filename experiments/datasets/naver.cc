@@ -175,7 +175,8 @@ std::optional<std::map<std::int64_t, std::string>> ReadRecords(
     lidar = *lidars.begin();
     if (lidars.size() > 1) {
       data->notes.push_back(data->name + ": of " +
-                            std::to_string(lidars.size()) + " lidars " + lidar);
+                            std::to_string(lidars.size()) + " lidars " +
+                            Quoted(lidar));
     }
   }
   std::map<std::int64_t, std::string> scans;

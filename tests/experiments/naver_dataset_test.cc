@@ -167,7 +167,7 @@ TEST_F(NaverTest, RigsStampsAndSeveralLidars) {
   ASSERT_EQ(data.scans.size(), 3u);
   EXPECT_THAT(data.scans.at(0), HasSubstr("records_data/pcd/lidar0_1.pcd"));
   EXPECT_THAT(data.scans.at(2), HasSubstr("records_data/pcd/lidar0_3.pcd"));
-  EXPECT_THAT(data.notes, Contains("b1: of 2 lidars lidar0"));
+  EXPECT_THAT(data.notes, Contains("b1: of 2 lidars 'lidar0'"));
   EXPECT_THAT(data.notes, Contains("b1: 1 of 3 frames have no pose: 2"));
   EXPECT_THAT(data.notes, Contains("b1: 1 of 3 frames have no scan: 1"));
   EXPECT_TRUE(data.ins.empty());
