@@ -135,8 +135,8 @@ TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
       used.ins.target_attitude = task.ins->target;
       used.ins.attitude_std = task.ins->std;
     }
-    RegistrationSummary summary = FindPairSolver(
-        name, methods.own, &error)(*source, *target, matched, used);
+    RegistrationSummary summary = FindPairSolver(name, methods.own, &error)(
+        *source, *target, matched, used);
     if (!summary.error.empty()) {
       outcome.note = name + ": " + summary.error;
       result.status = "unreadable";
