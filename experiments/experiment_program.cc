@@ -97,6 +97,8 @@ namespace {
 
 using quatro::Fail;
 
+constexpr int kMaxInterval = 1'000'000;  // Frames; no drive has as many.
+
 constexpr char kUsage[] =
     "compares methods on scans of a data set, or on problems with known "
     "answers.\n"
@@ -165,7 +167,8 @@ std::optional<std::vector<int>> IntervalsOfFlags(std::string* error) {
   std::vector<int> intervals;
   for (const std::string& text : SplitNames(FLAGS_intervals)) {
     const auto number = quatro::ParseFiniteNumber(text);
-    if (!number || *number < 1.0 || *number != static_cast<int>(*number)) {
+    if (!number || !(*number >= 1.0 && *number <= kMaxInterval) ||
+        *number != static_cast<int>(*number)) {
       *error = "--intervals: '" + text + "' is no number of frames";
       return std::nullopt;
     }

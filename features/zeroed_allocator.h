@@ -22,6 +22,7 @@ struct ZeroedAllocator {
   using value_type = T;
 
   ZeroedAllocator() = default;
+  // From that of another type; there is nothing to copy.
   template <typename U>
   ZeroedAllocator(const ZeroedAllocator<U>&) {}
 

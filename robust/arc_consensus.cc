@@ -134,15 +134,17 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   }
   summary.num_rotation_inliers = yaw->num_inliers;
 
-  std::vector<Eigen::Index> candidates;
+  // In pairs by the hundred thousand, if many matches are right.
+  std::vector<bool> agrees(static_cast<std::size_t>(summary.num_distinct));
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!yaw->is_inlier[static_cast<Eigen::Index>(k)]) continue;
-    candidates.push_back(pairs[k].first);
-    candidates.push_back(pairs[k].second);
+    agrees[static_cast<std::size_t>(pairs[k].first)] = true;
+    agrees[static_cast<std::size_t>(pairs[k].second)] = true;
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()),
-                   candidates.end());
+  std::vector<Eigen::Index> candidates;
+  for (Eigen::Index i = 0; i < summary.num_distinct; ++i) {
+    if (agrees[static_cast<std::size_t>(i)]) candidates.push_back(i);
+  }
   summary.num_consistent = static_cast<Eigen::Index>(candidates.size());
   summary.consistent = InputColumns(matches, candidates);
   Rigid3 target_from_source;

@@ -22,6 +22,7 @@ namespace quatro {
 constexpr std::int32_t kNoContact = -1;
 using Contacts = std::vector<std::int32_t>;
 
+// At one pose, of a's points in b.
 Contacts FindContacts(const SurfaceCloud& a,
                       const SurfaceCloud& b,
                       const Rigid3& b_from_a,

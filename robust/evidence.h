@@ -37,6 +37,7 @@ struct EvidenceOptions {
 
   RivalPoseOptions rival;
 
+  // The same [m].
   double MaxDistance() const { return max_distance_in_voxels * voxel_size; }
 
   // Returns false and says why in *error if a value is out of range.

@@ -1,4 +1,5 @@
-# Fails if README.md or a page of docs/ names a test or a file that is not there.
+# Fails if README.md or a page of docs/ names a test or a file that is not there,
+# or the method's page a function that is not in the header beside it.
 #   cmake -DROOT=. -P tests/readme_names_test.cmake
 file(GLOB_RECURSE sources "${ROOT}/tests/*_test.cc")
 set(all_tests "")
@@ -34,4 +35,25 @@ foreach(page ${pages})
 endforeach()
 if(num_tests LESS 60 OR num_files LESS 15)
   message(SEND_ERROR "README.md and docs/ name ${num_tests} tests and ${num_files} files only")
+endif()
+
+# "[robust/gnc.h](../robust/gnc.h), `SolveGnc`", the other way round, and "in".
+file(READ "${ROOT}/docs/method.md" method)
+set(name "`[A-Z][A-Za-z]+(\\([a-z, ]+\\))?`")
+set(header "\\[[a-z_0-9/]+\\.h\\]\\(\\.\\./[a-z_0-9/]+\\.h\\)")
+string(REGEX MATCHALL "${name}(,| in)[ \n]${header}" pairs "${method}")
+string(REGEX MATCHALL "(^|\n)${header}, ${name}" more "${method}")
+list(LENGTH pairs num_pairs)
+foreach(pair ${pairs} ${more})
+  string(REGEX MATCH "\\.\\./([a-z_0-9/]+\\.h)" path "${pair}")
+  set(path "${CMAKE_MATCH_1}")
+  string(REGEX MATCH "`([A-Za-z]+)" function "${pair}")
+  set(function "${CMAKE_MATCH_1}")
+  file(STRINGS "${ROOT}/${path}" lines REGEX "(^|[^A-Za-z])${function}[^A-Za-z]")
+  if(NOT lines)
+    message(SEND_ERROR "docs/method.md: ${path} has no ${function}")
+  endif()
+endforeach()
+if(num_pairs LESS 8)
+  message(SEND_ERROR "docs/method.md names ${num_pairs} functions only")
 endif()

@@ -48,6 +48,12 @@ CONTRACTS = {
     'Take': 'Takes a number.',
     'Skip': 'Passes over so many numbers.',
     'EndRow': 'Whether the row ends here.',
+    # Allocators.
+    'value_type': 'As std::allocator_traits asks for it.',
+    'allocate': 'As std::allocator_traits asks for it.',
+    'deallocate': 'As std::allocator_traits asks for it.',
+    'construct': 'As std::allocator_traits asks for it.',
+    'operator==': 'Whether two are alike.',
     # Cost functions and manifolds as Ceres wants them.
     'CostFunction': 'With derivatives by Ceres.',
     'Manifold': 'On which the rotation moves.',
@@ -64,7 +70,7 @@ CONTRACTS = {
 
 def contract_of(line):
     """The comment of a member that is known by its name, or nothing."""
-    name = re.match(r'\s*(?:using (\w+) =|(?!return|typedef)[\w:<>,&\*\[\] ]*?\b(operator\(\)|\w+)\()', line)
+    name = re.match(r'\s*(?:using (\w+) =|(?!return|typedef)[\w:<>,&\*\[\] ]*?\b(operator(?:\(\)|==)|\w+)\()', line)
     text = CONTRACTS.get((name.group(1) or name.group(2)) if name else '')
     return f'/** {text} */ ' if text else ''
 
@@ -120,6 +126,7 @@ def convert(lines):
     in_file_comment = True
     above = []           # The comment of the declarations at hand.
     trailing_column = -1  # Of the comment that ended the line before.
+    of_compounds = []    # Those of what is open.
     begins_anew = False
     for i, line in enumerate(lines):
         comment = COMMENT.match(line)
@@ -158,7 +165,12 @@ def convert(lines):
             text = contract_of(named) + text
         begins_anew = False
         yield text
+        depth = len(scopes.declares)
         scopes.read(code_of(line))
+        if len(scopes.declares) > depth:
+            of_compounds.append(above)
+        elif len(scopes.declares) < depth and of_compounds:
+            above = of_compounds.pop()  # Holds for what is declared right below it, too.
 
 
 if __name__ == '__main__':

@@ -16,8 +16,15 @@
 #include "features/simd.h"
 #include "robust/arc_consensus.h"
 #include "robust/consistency_graph.h"
+#include "robust/gnc.h"
 #include "robust/max_clique.h"
+#include "robust/quasi_so3.h"
 #include "robust/quatro.h"
+#include "robust/surrogate.h"
+#include "robust/tims.h"
+#include "solvers/exact_yaw.h"
+#include "solvers/gravity.h"
+#include "solvers/translation.h"
 
 namespace quatro {
 namespace {
@@ -25,6 +32,7 @@ namespace {
 constexpr double kNoiseSigma = 0.1;  // [m]
 constexpr double kOutlierRatio = 0.95;
 constexpr double kArcOutlierRatio = 0.99;
+constexpr int kCliqueSize = 200;
 constexpr std::uint64_t kSeed = 1;
 
 MatchedProblem MakeProblem(int size, double outlier_ratio) {
@@ -116,6 +124,34 @@ void RunQuatro(int size, int num_threads, benchmark::State& state) {
   ReportError(summary, problem, &state);
 }
 
+// What follows the clique, a twentieth of which is wrong: yaw by GNC, the exact
+// one beside it, translation.
+void SolveClique(benchmark::State& state) {
+  const MatchedProblem problem = MakeProblem(kCliqueSize, 0.05);
+  const QuatroOptions options;
+  const auto pairs = MakeTimPairs(kCliqueSize, TimLayout::kRing, 0, 0);
+  const QuasiSo3 rotation = {ComputeTims(problem.source, pairs),
+                             ComputeTims(problem.target, pairs),
+                             options.tim_bound_factor * options.noise_bound};
+  const Weights weights = Weights::Ones(rotation.NumMeasurements());
+  const Weights bounds =
+      Weights::Constant(weights.size(), rotation.noise_bound);
+  double error = 0.0;
+  for (auto _ : state) {
+    const auto gnc = SolveGnc<TruncatedLeastSquares>(rotation, options.gnc);
+    const auto exact =
+        EstimateExactYaw(rotation.source, rotation.target, weights, bounds);
+    benchmark::DoNotOptimize(exact->cost);
+    const double yaw = gnc.estimate->target_from_source;
+    const auto translation = EstimateTranslation(
+        RotationZ(yaw) * problem.source, problem.target, options.noise_bound);
+    error = (translation->target_from_source -
+             problem.true_target_from_source.translation)
+                .norm();
+  }
+  state.counters["error_m"] = error;
+}
+
 void RunArcConsensus(int size, int num_threads, benchmark::State& state) {
   const MatchedProblem problem = MakeProblem(size, kArcOutlierRatio);
   ArcConsensusOptions options;
@@ -135,6 +171,10 @@ void RunArcConsensus(int size, int num_threads, benchmark::State& state) {
 void AddSizeStages(const std::vector<int>& sizes, int num_threads) {
   using benchmark::State;
   Add("memory_copy", "limit", "MiB:256", CopyMemory);
+  Add("after_clique",
+      "quatro",
+      "clique:" + std::to_string(kCliqueSize),
+      SolveClique);
   for (const int size : sizes) {
     const std::string of_case = "N:" + std::to_string(size);
     if (size <= kMaxGraphSize) {

@@ -227,6 +227,15 @@ TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
                  "--report_views",
                  "must be >= 0");
   ExpectBadInput("quatro_experiment", {"--protocol=magic"}, "magic", "must be");
+  for (const char* text : {"0", "1.5", "nan", "99999999999", "1e300"}) {
+    ExpectBadInput("quatro_experiment",
+                   {"--protocol=interval",
+                    "--data=" + PathOf("nowhere"),
+                    "--output=" + PathOf("run"),
+                    std::string("--intervals=1,") + text},
+                   "--intervals",
+                   "is no number of frames");
+  }
   ExpectBadInput("quatro_experiment",
                  {"--protocol=pairs", "--pairs=" + PathOf("pairs.csv")},
                  "--output",

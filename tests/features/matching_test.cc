@@ -328,7 +328,7 @@ class TupleTestTest : public ::testing::Test {
   const Points target_ = (RandomRotation(2) * source_).colwise() +
                          Eigen::Vector3d(30.0, -20.0, 5.0);
   const std::vector<Match> matches_ = Matches();
-  const TupleTestOptions options_;
+  const TupleTestOptions options_{};
 };
 
 TEST_F(TupleTestTest, RigidMatchesAllPass) {

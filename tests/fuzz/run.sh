@@ -47,9 +47,9 @@ done
 results=$build/fuzz/results.csv
 mkdir -p "$build/fuzz/findings" "$build/fuzz/logs"
 [[ -e $results ]] || echo "target,exit_code,cpu_s,executions,edges,corpus" >"$results"
-# What is freed is not kept back for long: memory is limited.
-export ASAN_OPTIONS=quarantine_size_mb=16:${ASAN_OPTIONS:-}
-export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
+# What is freed is not kept back for long: memory is limited. Names of functions
+# take longer than an input may.
+export ASAN_OPTIONS=quarantine_size_mb=16:symbolize=0:${ASAN_OPTIONS:-}
 TIMEFORMAT='%U %S'
 
 #   fuzz <target>: one line on what came of it, and one in $results
