@@ -22,10 +22,10 @@ constexpr int kLanes = 16;
 template <int kBytes>
 struct Lanes {
   // A register of each type.
-  typedef float Float __attribute__((vector_size(kBytes), may_alias));
-  typedef std::int32_t Int __attribute__((vector_size(kBytes), may_alias));
-  typedef double Double __attribute__((vector_size(kBytes), may_alias));
-  typedef std::int64_t Long __attribute__((vector_size(kBytes), may_alias));
+  using Float __attribute__((vector_size(kBytes), may_alias)) = float;
+  using Int __attribute__((vector_size(kBytes), may_alias)) = std::int32_t;
+  using Double __attribute__((vector_size(kBytes), may_alias)) = double;
+  using Long __attribute__((vector_size(kBytes), may_alias)) = std::int64_t;
   static constexpr int kNumPieces = 64 / kBytes;
   static constexpr int kPieceLanes = kBytes / 4;
 };
