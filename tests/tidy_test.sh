@@ -12,8 +12,8 @@ command -v clang-tidy >/dev/null || {
   echo "tidy_test.sh: no clang-tidy; third_party/install.sh --tidy installs it" >&2
   exit 2
 }
-cmake -S . -B build-tidy -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
-      -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+cmake -S . -B build-tidy -DCMAKE_BUILD_TYPE=Release -DQUATRO_BUILD_TESTS=OFF -DCMAKE_CXX_COMPILER=clang++ \
+      -DQUATRO_BUILD_EXPERIMENTS=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
 if (($# > 0)); then
   sources=("$@")
 else
