@@ -195,8 +195,9 @@ TEST(KdTree, NearestAreTheNearestFirst) {
 TEST(KdTree, NearestWithinIsTheNearestIfThereIsOne) {
   const Points points = RandomPoints(500, 2.0, 21);
   const KdTree tree(points);
+  const Points queries = RandomPoints(200, 3.0, 22);
   int num_found = 0;
-  for (const auto query : RandomPoints(200, 3.0, 22).colwise()) {
+  for (const auto query : queries.colwise()) {
     const Neighbor nearest = tree.Nearest(query, 1).front();
     // The ball is closed.
     const double distance = std::sqrt(nearest.squared_distance);
