@@ -27,7 +27,7 @@ constexpr float kMinSine = 1e-4f;
 // One part of a descriptor to a row; the last lane takes what has no feature.
 constexpr int kRowLanes = 16;
 constexpr std::int32_t kNoBin = kRowLanes - 1;
-typedef float Row __attribute__((vector_size(4 * kRowLanes), may_alias));
+using Row __attribute__((vector_size(4 * kRowLanes), may_alias)) = float;
 
 struct alignas(64) Histogram {
   float part[3][kRowLanes];

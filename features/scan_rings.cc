@@ -170,7 +170,7 @@ ScanRings EstimateScanRings(const PointsRef& points) {
   ScanRings scan;
   const Directions directions = ComputeDirections(points);
   if (directions.index.size() <
-      static_cast<std::size_t>(kMinNumRings * kMinRingSize)) {
+      static_cast<std::size_t>(kMinNumRings) * kMinRingSize) {
     return scan;
   }
   std::vector<Ring> rings = RingsByOrder(directions);

@@ -50,7 +50,7 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
     const double p2 = (ends[a].source - ends[b].source).squaredNorm();
     const double q2 = (ends[a].target - ends[b].target).squaredNorm();
     // Without a branch in between, which would be taken at random.
-    return bool((s2 * q2 < p2) & (s2 * p2 < q2));
+    return static_cast<bool>((s2 * q2 < p2) & (s2 * p2 < q2));
   };
 
   // Only ever set, and so in whatever order.
