@@ -169,8 +169,8 @@ bool IsPlausible(std::vector<Ring>* rings) {
 ScanRings EstimateScanRings(const PointsRef& points) {
   ScanRings scan;
   const Directions directions = ComputeDirections(points);
-  if (directions.index.size() <
-      static_cast<std::size_t>(kMinNumRings) * kMinRingSize) {
+  if (directions.index.size() < static_cast<std::size_t>(kMinNumRings) *
+                                    static_cast<std::size_t>(kMinRingSize)) {
     return scan;
   }
   std::vector<Ring> rings = RingsByOrder(directions);
