@@ -187,7 +187,7 @@ TEST_P(QuatroTest, RepeatedMatchesCountOnceBitForBit) {
     originals.push_back(order[static_cast<std::size_t>(k)]);
   }
   std::ranges::sort(originals);
-  const auto end = std::ranges::unique(originals).begin();
+  const auto end = std::unique(originals.begin(), originals.end());
   EXPECT_GT(originals.end() - end, 0);
   originals.erase(end, originals.end());
   EXPECT_EQ(originals, expected.translation_inliers);
