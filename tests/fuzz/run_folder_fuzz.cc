@@ -46,7 +46,7 @@ void FuzzFolder(const std::string& path) {
       return;
     }
     const bool is_there = folder->Has(NewRows().front().pair);
-    CHECK(folder->Append(NewRows(), "", &error)) << error;
+    CHECK(folder->Append(NewRows(), "", "", &error)) << error;
     size = folder->size();
     CHECK(is_there || folder->Has(NewRows().front().pair));
   }
