@@ -45,6 +45,7 @@ Fpfh RandomDescriptors(Eigen::Index n, std::uint64_t seed) {
 Fpfh TyingDescriptors(Eigen::Index n, std::uint64_t seed) {
   Random random(seed);
   Fpfh descriptors = Fpfh::Zero(kFpfhSize, n);
+  if (n == 0) return descriptors;  // Rows of nothing have no address.
   descriptors.bottomRows<5>() = Fpfh::NullaryExpr(kFpfhSize, n, [&] {
                                   return static_cast<float>(random.Below(2));
                                 }).bottomRows<5>();
