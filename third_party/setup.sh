@@ -7,14 +7,14 @@ quatro_install() {
   bash third_party/install.sh || true
 }
 
-#   quatro_configure <preset> <build folder>
+#   quatro_configure <preset> <build folder> [<option of cmake>...]
 # A build folder keeps the generator it has.
 quatro_configure() {
   local generator=()
   if [[ ! -e $2/CMakeCache.txt ]] && command -v ninja >/dev/null; then
     generator=(-G Ninja)
   fi
-  cmake --preset "$1" "${generator[@]}"
+  cmake --preset "$1" "${generator[@]}" "${@:3}"
 }
 
 # One job a core, as far as there are 2 GB of memory for each.
