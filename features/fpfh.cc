@@ -50,18 +50,18 @@ struct Neighborhood {
   void Gather(const std::vector<OrientedPoint>& points,
               const Neighborhoods& neighborhoods,
               std::size_t i) {
-    const auto begin = static_cast<std::size_t>(neighborhoods.row_begin[i]);
-    const auto end = static_cast<std::size_t>(neighborhoods.row_begin[i + 1]);
-    if (end - begin > x.size()) {
+    const Neighborhoods::Row& row =
+        neighborhoods.row(static_cast<Eigen::Index>(i));
+    if (row.size() > x.size()) {
       for (auto* floats : {&x, &y, &z, &nx, &ny, &nz}) {
-        floats->resize(end - begin);
+        floats->resize(row.size());
       }
-      bins.resize(end - begin);
+      bins.resize(row.size());
     }
     size = 0;
     num_apart = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::int32_t j = neighborhoods.index[k];
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const std::int32_t j = row.index[k];
       const OrientedPoint& point = points[static_cast<std::size_t>(j)];
       x[size] = point.x;
       y[size] = point.y;
@@ -70,8 +70,7 @@ struct Neighborhood {
       ny[size] = point.ny;
       nz[size] = point.nz;
       size += point.has_normal & (static_cast<std::size_t>(j) != i);
-      num_apart +=
-          point.has_normal & (neighborhoods.squared_distance[k] > 0.0f);
+      num_apart += point.has_normal & (row.squared_distance[k] > 0.0f);
     }
   }
 };
@@ -308,18 +307,12 @@ Fpfh ComputeFpfh(const PointsRef& points,
          ++i) {
       if (!oriented[i].has_normal) continue;
       // Equation (2).
-      const auto row = static_cast<std::size_t>(neighborhoods.row_begin[i]);
-      const auto size =
-          static_cast<std::size_t>(neighborhoods.row_begin[i + 1]) - row;
-      weights.resize(std::max(weights.size(), size));
-      FindWeights(
-          neighborhoods.squared_distance.data() + row, size, weights.data());
+      const Neighborhoods::Row& row =
+          neighborhoods.row(static_cast<Eigen::Index>(i));
+      weights.resize(std::max(weights.size(), row.size()));
+      FindWeights(row.squared_distance.data(), row.size(), weights.data());
       Histogram sum;
-      AddUp(spfh.data(),
-            neighborhoods.index.data() + row,
-            weights.data(),
-            size,
-            &sum);
+      AddUp(spfh.data(), row.index.data(), weights.data(), row.size(), &sum);
       const std::int32_t num = num_summed[i];
       for (int part = 0; part < 3; ++part) {
         for (int bin = 0; bin < kFpfhBinsPerPart; ++bin) {

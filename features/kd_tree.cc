@@ -67,6 +67,29 @@ struct NearestBelow {
   std::size_t size() const { return index ? 1 : 0; }
 };
 
+// find(i) returns the neighbours of point i.
+template <typename Find>
+Neighborhoods FindRows(Eigen::Index num_points,
+                       int num_threads,
+                       const Find& find) {
+  NeighborhoodsBuilder builder(num_points);
+  const auto find_some = [&](Eigen::Index begin, Eigen::Index end) {
+    NeighborhoodsBuilder::Writer writer(&builder);
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const std::vector<Neighbor> found = find(i);
+      const auto room = writer.MakeRoom(found.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        room.index[k] = static_cast<std::int32_t>(found[k].index);
+        room.squared_distance[k] =
+            static_cast<float>(found[k].squared_distance);
+      }
+      writer.Add(i, found.size());
+    }
+  };
+  ParallelFor(num_threads, num_points, 256, find_some);
+  return std::move(builder).Finish();
+}
+
 }  // namespace
 
 struct KdTree::Index {
@@ -143,58 +166,17 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
           tree.points(), radius, num_threads, BestSimdLevel())) {
     return *std::move(found);
   }
-  const Eigen::Index n = tree.points().cols();
-  std::vector<std::vector<Neighbor>> rows(static_cast<std::size_t>(n));
-  ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      rows[static_cast<std::size_t>(i)] =
-          tree.WithinRadius(tree.points().col(i), radius);
-    }
+  return FindRows(tree.points().cols(), num_threads, [&](Eigen::Index i) {
+    return tree.WithinRadius(tree.points().col(i), radius);
   });
-
-  Neighborhoods result;
-  result.row_begin.assign(1, 0);
-  for (const auto& row : rows) {
-    result.row_begin.push_back(result.row_begin.back() +
-                               static_cast<std::int64_t>(row.size()));
-  }
-  result.index.reserve(static_cast<std::size_t>(result.row_begin.back()));
-  result.squared_distance.reserve(result.index.capacity());
-  for (auto& row : rows) {
-    for (const Neighbor& neighbor : row) {
-      result.index.push_back(static_cast<std::int32_t>(neighbor.index));
-      result.squared_distance.push_back(
-          static_cast<float>(neighbor.squared_distance));
-    }
-    std::vector<Neighbor>().swap(row);
-  }
-  return result;
 }
 
 Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
                                        int k,
                                        int num_threads) {
-  const Eigen::Index n = tree.points().cols();
-  const Eigen::Index row_size = std::clamp<Eigen::Index>(k, 0, n);
-  Neighborhoods result;
-  for (Eigen::Index i = 0; i <= n; ++i) {
-    result.row_begin.push_back(i * row_size);
-  }
-  result.index.resize(static_cast<std::size_t>(n * row_size));
-  result.squared_distance.resize(result.index.size());
-  ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      const auto nearest =
-          tree.Nearest(tree.points().col(i), static_cast<int>(row_size));
-      auto at = static_cast<std::size_t>(i * row_size);
-      for (const Neighbor& neighbor : nearest) {
-        result.index[at] = static_cast<std::int32_t>(neighbor.index);
-        result.squared_distance[at++] =
-            static_cast<float>(neighbor.squared_distance);
-      }
-    }
+  return FindRows(tree.points().cols(), num_threads, [&](Eigen::Index i) {
+    return tree.Nearest(tree.points().col(i), k);
   });
-  return result;
 }
 
 }  // namespace quatro
