@@ -8,86 +8,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
+#include "features/cells.h"
 #include "features/lanes.h"
 #include "features/parallel.h"
-#include "features/radix_sort.h"
 
 namespace quatro {
 namespace {
-
-// Cells may be so many on each axis that rounding keeps (1) if they are wider
-// than the radius by one part in a million.
-constexpr double kMaxCells = 1 << 20;
-constexpr double kWider = 1.0 + 1e-6;
-
-struct Cell {
-  std::uint64_t key;
-  std::size_t begin, end;  // Of its points, in order of cells.
-};
-
-struct Cells {
-  std::vector<std::int32_t> order;  // Points, cell by cell.
-  std::vector<Cell> cells;          // In ascending order of keys.
-  int y_shift = 0, x_shift = 0;     // Of these axes in a key, above z.
-
-  // The points in those of three cells, one after the other along z, that are
-  // not empty.
-  std::pair<std::size_t, std::size_t> PointsInColumn(std::uint64_t key) const {
-    const auto first = std::lower_bound(
-        cells.begin(), cells.end(), key, [](const Cell& cell, auto wanted) {
-          return cell.key < wanted;
-        });
-    if (first == cells.end() || first->key > key + 2) return {0, 0};
-    auto last = first;
-    while (last + 1 != cells.end() && (last + 1)->key <= key + 2) ++last;
-    return {first->begin, last->end};
-  }
-};
-
-std::optional<Cells> MakeCells(const Points& points, double radius) {
-  Cells result;
-  const Eigen::Index n = points.cols();
-  if (n == 0) return result;
-  const Eigen::Vector3d low = points.rowwise().minCoeff();
-  const Eigen::Vector3d extents = points.rowwise().maxCoeff() - low;
-  const double extent = extents.maxCoeff();
-  const double width = radius * kWider;
-  // An extent that overflows, or none of any radius, has no cells.
-  if (!(extent < kMaxCells * width && std::isfinite(extent))) {
-    return std::nullopt;
-  }
-  // Cells from 1, so that there is one below, and one above the last.
-  int bits[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    bits[axis] = static_cast<int>(std::bit_width(
-        static_cast<std::uint64_t>(extents[axis] / width + 2.0)));
-  }
-  result.y_shift = bits[2];
-  result.x_shift = bits[2] + bits[1];
-  std::vector<KeyedIndex> keyed(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto cell = static_cast<std::uint64_t>(
-          (points(axis, i) - low[axis]) / width + 1.0);
-      key = key << bits[axis] | cell;
-    }
-    keyed[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
-  }
-  RadixSort(bits[0] + bits[1] + bits[2], &keyed);
-  result.order.reserve(keyed.size());
-  for (const auto& [key, i] : keyed) {
-    if (result.cells.empty() || result.cells.back().key != key) {
-      result.cells.push_back({key, result.order.size(), result.order.size()});
-    }
-    result.order.push_back(i);
-    result.cells.back().end = result.order.size();
-  }
-  return result;
-}
 
 // Ascending. By a row of bits where the indices are close together, as those of
 // a sampled cloud are.
@@ -219,7 +147,7 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
                                                       double radius,
                                                       int num_threads,
                                                       SimdLevel level) {
-  const std::optional<Cells> cells = MakeCells(points, radius);
+  const std::optional<Cells> cells = Cells::Make(points, radius);
   if (!cells) return std::nullopt;
   NeighborhoodsBuilder builder(points.cols());
   const auto find = [&](Eigen::Index begin, Eigen::Index end) {
@@ -227,24 +155,12 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
     std::vector<std::int32_t> near;
     std::vector<std::uint64_t> bits;
     for (Eigen::Index c = begin; c < end; ++c) {
-      const Cell& cell = cells->cells[static_cast<std::size_t>(c)];
-      near.clear();
-      for (std::uint64_t x = 0; x < 3; ++x) {
-        for (std::uint64_t y = 0; y < 3; ++y) {
-          const std::uint64_t corner = (std::uint64_t{1} << cells->x_shift) +
-                                       (std::uint64_t{1} << cells->y_shift) + 1;
-          const auto [first, last] =
-              cells->PointsInColumn(cell.key - corner + (x << cells->x_shift) +
-                                    (y << cells->y_shift));
-          near.insert(near.end(),
-                      cells->order.data() + first,
-                      cells->order.data() + last);
-        }
-      }
+      const Cells::Cell& cell = cells->cells()[static_cast<std::size_t>(c)];
+      cells->FindNear(cell.key, &near);
       Sort(&near, &bits);
       const std::vector<Block> blocks = MakeBlocks(points, near);
       for (std::size_t k = cell.begin; k < cell.end; ++k) {
-        const std::int32_t i = cells->order[k];
+        const std::int32_t i = cells->order()[k];
         const Room room = writer.MakeRoom(blocks.size() * kLanes);
         writer.Add(
             i,
@@ -253,7 +169,7 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
     }
   };
   ParallelFor(
-      num_threads, static_cast<Eigen::Index>(cells->cells.size()), 32, find);
+      num_threads, static_cast<Eigen::Index>(cells->cells().size()), 32, find);
   return std::move(builder).Finish();
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <nanoflann.hpp>
 #include <optional>
 #include <utility>
@@ -92,19 +94,29 @@ Neighborhoods FindRows(Eigen::Index num_points,
 
 }  // namespace
 
-struct KdTree::Index {
-  explicit Index(const Points& points)
-      : adaptor{points},
-        tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
-    tree.buildIndex();
+class KdTree::Index {
+ public:
+  explicit Index(const Points& points) : adaptor_{points} {}
+
+  // Built when it is first asked for, which may never be.
+  const Tree& tree() {
+    std::call_once(once_, [this] {
+      tree_ = std::make_unique<Tree>(
+          3, adaptor_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
+      tree_->buildIndex();
+    });
+    return *tree_;
   }
-  Adaptor adaptor;
-  Tree tree;
+
+ private:
+  Adaptor adaptor_;
+  std::once_flag once_;
+  std::unique_ptr<Tree> tree_;
 };
 
 KdTree::KdTree(Points points)
     : points_(std::make_unique<const Points>(std::move(points))),
-      index_(std::make_unique<const Index>(*points_)) {}
+      index_(std::make_unique<Index>(*points_)) {}
 KdTree::~KdTree() = default;
 KdTree::KdTree(KdTree&&) noexcept = default;
 KdTree& KdTree::operator=(KdTree&&) noexcept = default;
@@ -115,7 +127,7 @@ std::vector<Neighbor> KdTree::WithinRadius(const Eigen::Vector3d& query,
   const double squared_radius = radius * radius;
   nanoflann::SearchParams params;
   params.sorted = false;
-  index_->tree.radiusSearch(
+  index_->tree().radiusSearch(
       query.data(), LimitOf(squared_radius), found, params);
   std::sort(found.begin(), found.end());
   std::vector<Neighbor> neighbors;
@@ -132,7 +144,7 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
   if (k == 1) {
     std::uint32_t index = 0;
     double squared_distance = 0.0;
-    if (index_->tree.knnSearch(query.data(), 1, &index, &squared_distance) ==
+    if (index_->tree().knnSearch(query.data(), 1, &index, &squared_distance) ==
         0) {
       return {};
     }
@@ -140,7 +152,7 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
   }
   std::vector<std::uint32_t> indices(static_cast<std::size_t>(k));
   std::vector<double> d2(static_cast<std::size_t>(k));
-  const std::size_t num_found = index_->tree.knnSearch(
+  const std::size_t num_found = index_->tree().knnSearch(
       query.data(), static_cast<std::size_t>(k), indices.data(), d2.data());
   std::vector<Neighbor> neighbors;
   neighbors.reserve(num_found);
@@ -154,7 +166,8 @@ std::optional<Neighbor> KdTree::NearestWithin(const Eigen::Vector3d& query,
                                               double radius) const {
   const double squared_radius = radius * radius;
   NearestBelow nearest{LimitOf(squared_radius), std::nullopt};
-  index_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
+  index_->tree().findNeighbors(
+      nearest, query.data(), nanoflann::SearchParams());
   if (!nearest.index || nearest.limit > squared_radius) return std::nullopt;
   return Neighbor{*nearest.index, nearest.limit};
 }

@@ -23,7 +23,7 @@ struct Neighbor {
 };
 
 // Holds its own copy of the points, which must be finite. Const members may be
-// called from several threads.
+// called from several threads; the first call builds the tree.
 class KdTree {
  public:
   // Of these points; it can be moved, not copied.
@@ -48,9 +48,9 @@ class KdTree {
                                         double radius) const;
 
  private:
-  struct Index;
+  class Index;
   std::unique_ptr<const Points> points_;
-  std::unique_ptr<const Index> index_;
+  std::unique_ptr<Index> index_;
 };
 
 // Of each point of the tree those within `radius` [m], in ascending order of
