@@ -152,11 +152,12 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
   NeighborhoodsBuilder builder(points.cols());
   const auto find = [&](Eigen::Index begin, Eigen::Index end) {
     NeighborhoodsBuilder::Writer writer(&builder);
+    Cells::Walk walk(*cells);
     std::vector<std::int32_t> near;
     std::vector<std::uint64_t> bits;
     for (Eigen::Index c = begin; c < end; ++c) {
       const Cells::Cell& cell = cells->cells()[static_cast<std::size_t>(c)];
-      cells->FindNear(cell.key, &near);
+      walk.FindNear(cell.key, &near);
       Sort(&near, &bits);
       const std::vector<Block> blocks = MakeBlocks(points, near);
       for (std::size_t k = cell.begin; k < cell.end; ++k) {

@@ -76,27 +76,36 @@ Cells::Key Cells::KeyAt(const Eigen::Vector3d& cell) const {
          static_cast<Key>(cell.y()) << y_shift_ | static_cast<Key>(cell.z());
 }
 
-std::pair<std::size_t, std::size_t> Cells::PointsInColumn(Key first) const {
-  const auto from = std::lower_bound(
-      cells_.begin(), cells_.end(), first, [](const Cell& cell, Key wanted) {
-        return cell.key < wanted;
-      });
-  if (from == cells_.end() || from->key > first + 2) return {0, 0};
-  auto last = from;
-  while (last + 1 != cells_.end() && (last + 1)->key <= first + 2) ++last;
-  return {from->begin, last->end};
-}
-
-void Cells::FindNear(Key key, std::vector<std::int32_t>* near) const {
+void Cells::Walk::FindNear(Key key, std::vector<std::int32_t>* near) {
+  const std::vector<Cell>& cells = cells_.cells_;
   near->clear();
-  const Key x_step = Key{1} << x_shift_;
-  const Key y_step = Key{1} << y_shift_;
-  for (Key x = 0; x < 3; ++x) {
-    for (Key y = 0; y < 3; ++y) {
-      const auto [first, last] =
-          PointsInColumn(key - x_step - y_step - 1 + x * x_step + y * y_step);
-      near->insert(near->end(), order_.data() + first, order_.data() + last);
+  const Key x_step = Key{1} << cells_.x_shift_;
+  const Key y_step = Key{1} << cells_.y_shift_;
+  // Below the first cell of an axis this is one at the end of another, empty as
+  // all that are at an end.
+  const Key corner = key - x_step - y_step - 1;
+  for (std::size_t column = 0; column < at_.size(); ++column) {
+    const Key first = corner + column / 3 * x_step + column % 3 * y_step;
+    std::size_t& at = at_[column];
+    if (at > 0 && cells[at - 1].key >= first) at = 0;
+    const auto is_before = [&](std::size_t i) {
+      return i < cells.size() && cells[i].key < first;
+    };
+    for (int step = 0; step < 8 && is_before(at); ++step) ++at;
+    if (is_before(at)) {
+      const auto from = cells.begin() + static_cast<std::ptrdiff_t>(at);
+      const auto found = std::lower_bound(
+          from, cells.end(), first, [](const Cell& cell, Key wanted) {
+            return cell.key < wanted;
+          });
+      at = static_cast<std::size_t>(found - cells.begin());
     }
+    std::size_t end = at;
+    while (end < cells.size() && cells[end].key - first <= 2) ++end;
+    if (end == at) continue;
+    near->insert(near->end(),
+                 cells_.order_.data() + cells[at].begin,
+                 cells_.order_.data() + cells[end - 1].end);
   }
 }
 

@@ -10,10 +10,10 @@
 #define QUATRO_FEATURES_CELLS_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "features/types.h"
@@ -49,15 +49,21 @@ class Cells {
   // what is not finite.
   std::optional<Key> KeyOf(const Eigen::Vector3d& place) const;
 
-  // Puts the points of the 27 cells around a key into *near, in the order of
-  // cells.
-  void FindNear(Key key, std::vector<std::int32_t>* near) const;
+  // Finds what is near to one key after the other; fastest where each is a
+  // little above the one before.
+  class Walk {
+   public:
+    explicit Walk(const Cells& cells) : cells_(cells) {}
+
+    // Puts the points of the 27 cells around it into *near, cell by cell.
+    void FindNear(Key key, std::vector<std::int32_t>* near);
+
+   private:
+    const Cells& cells_;
+    std::array<std::size_t, 9> at_{};  // In each column of three cells.
+  };
 
  private:
-  // The points in those of three cells, one after the other along z, that are
-  // not empty.
-  std::pair<std::size_t, std::size_t> PointsInColumn(Key first) const;
-
   Key KeyAt(const Eigen::Vector3d& cell) const;
 
   std::vector<std::int32_t> order_;

@@ -22,6 +22,9 @@ using Coordinates = Eigen::Matrix<float, kNumAxes, Eigen::Dynamic>;
 using Corner = Eigen::Array<float, kNumAxes, 1>;
 
 bool IsDescriptor(const Fpfh& descriptors, Eigen::Index i) {
+  // A sum that is neither is of numbers that are not all zero, and all finite.
+  const float sum = descriptors.col(i).cwiseAbs().sum();
+  if (sum > 0.0f && std::isfinite(sum)) return true;
   return !descriptors.col(i).isZero(0.0f) && descriptors.col(i).allFinite();
 }
 
@@ -358,8 +361,8 @@ DescriptorIndex::DescriptorIndex(const Fpfh& descriptors,
   const std::size_t num_boxes = (num_tiles + kLanes - 1) / kLanes;
   parts_.margin = axes.margin;
   parts_.squared_margin = axes.squared_margin;
-  parts_.tiles.resize(num_tiles);
-  parts_.tiles_along.resize(num_tiles);
+  parts_.tiles = ZeroedVector<Tile>(num_tiles);
+  parts_.tiles_along = ZeroedVector<TileAlong>(num_tiles);
   parts_.tile_boxes = EmptyBoxes(num_tiles);
   parts_.large_boxes = EmptyBoxes(num_boxes);
   for (std::size_t box = 0; box < num_boxes; ++box) {

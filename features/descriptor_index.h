@@ -39,6 +39,7 @@
 #include "features/fpfh.h"
 #include "features/lanes.h"
 #include "features/simd.h"
+#include "features/zeroed_allocator.h"
 
 namespace quatro {
 
@@ -114,8 +115,8 @@ class DescriptorIndex {
   struct Parts {
     float margin = 0.0f;
     float squared_margin = 0.0f;
-    std::vector<Tile> tiles;
-    std::vector<TileAlong> tiles_along;
+    ZeroedVector<Tile> tiles;
+    ZeroedVector<TileAlong> tiles_along;
     std::vector<Boxes> tile_boxes;
     std::vector<Boxes> large_boxes;  // Of 16 tiles each.
   };

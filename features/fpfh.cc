@@ -16,6 +16,7 @@
 #include "features/pair_feature.h"
 #include "features/parallel.h"
 #include "features/simd.h"
+#include "features/zeroed_allocator.h"
 
 namespace quatro {
 namespace {
@@ -36,7 +37,9 @@ struct alignas(64) Counts {
   std::int32_t part[3][kRowLanes] = {};
 
   void Add(const PairBins& bins) {
-    for (int k = 0; k < 3; ++k) ++part[k][bins.part(k)];
+    ++part[0][bins.part(0)];
+    ++part[1][bins.part(1)];
+    ++part[2][bins.part(2)];
   }
   void Add(const Counts& other) {
     for (int k = 0; k < 3; ++k) {
@@ -94,10 +97,10 @@ void NormalizeParts(float sum, Histogram* histogram) {
 
 // Counts of the pairs of points [begin, end) with those after them, a pair
 // being the same from either side: of the points from `begin` on.
-std::vector<Counts> CountPairs(const std::vector<OrientedPoint>& points,
-                               const Neighborhoods& neighborhoods,
-                               Eigen::Index begin,
-                               Eigen::Index end) {
+ZeroedVector<Counts> CountPairs(const std::vector<OrientedPoint>& points,
+                                const Neighborhoods& neighborhoods,
+                                Eigen::Index begin,
+                                Eigen::Index end) {
   const auto later = [&](Eigen::Index i) {
     const std::span<const std::int32_t> index = neighborhoods.row(i).index;
     const auto first = std::upper_bound(index.begin(), index.end(), i);
@@ -108,7 +111,7 @@ std::vector<Counts> CountPairs(const std::vector<OrientedPoint>& points,
     const auto& index = neighborhoods.row(i).index;
     if (!index.empty()) last = std::max<Eigen::Index>(last, index.back());
   }
-  std::vector<Counts> counts(static_cast<std::size_t>(last - begin + 1));
+  ZeroedVector<Counts> counts(static_cast<std::size_t>(last - begin + 1));
   PairBinner binner;
   for (Eigen::Index i = begin; i < end; ++i) {
     const OrientedPoint& own = points[static_cast<std::size_t>(i)];
@@ -185,7 +188,7 @@ Fpfh ComputeFpfh(const PointsRef& points,
   const auto part_begin = [&](Eigen::Index part) {
     return part * n / num_parts;
   };
-  std::vector<std::vector<Counts>> counts(static_cast<std::size_t>(num_parts));
+  std::vector<ZeroedVector<Counts>> counts(static_cast<std::size_t>(num_parts));
   ParallelFor(
       num_threads, num_parts, 1, [&](Eigen::Index begin, Eigen::Index end) {
         for (Eigen::Index part = begin; part < end; ++part) {
@@ -194,7 +197,7 @@ Fpfh ComputeFpfh(const PointsRef& points,
         }
       });
   const auto size = static_cast<std::size_t>(n);
-  const auto spfh = std::make_unique_for_overwrite<Histogram[]>(size);
+  ZeroedVector<Histogram> spfh(size);
   const auto num_pairs = std::make_unique_for_overwrite<std::int32_t[]>(size);
   ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
     for (Eigen::Index i = begin; i < end; ++i) {
@@ -223,7 +226,7 @@ Fpfh ComputeFpfh(const PointsRef& points,
       weights.resize(std::max(weights.size(), row.size()));
       FindWeights(row.squared_distance.data(), row.size(), weights.data());
       Histogram sum;
-      AddUp(spfh.get(), row.index.data(), weights.data(), row.size(), &sum);
+      AddUp(spfh.data(), row.index.data(), weights.data(), row.size(), &sum);
       FinishFpfh(spfh[i], num_pairs[i], &sum);
       for (int part = 0; part < 3; ++part) {
         std::copy_n(

@@ -84,12 +84,13 @@ std::vector<std::int32_t> FindNearestWithin(const KdTree& tree,
   RadixSort(cells->num_key_bits(), &keyed);
   const auto find = [&](Eigen::Index begin, Eigen::Index end) {
     NearPoints near;
+    Cells::Walk walk(*cells);
     std::optional<Cells::Key> of;
     for (Eigen::Index k = begin; k < end; ++k) {
       const auto& [key, i] = keyed[static_cast<std::size_t>(k)];
       if (of != key) {
         of = key;
-        cells->FindNear(key, &near.index);
+        walk.FindNear(key, &near.index);
         near.Gather(points);
       }
       nearest[static_cast<std::size_t>(i)] =

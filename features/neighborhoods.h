@@ -53,8 +53,8 @@ class Neighborhoods {
 
     std::size_t Room() const { return index.size() - used; }
 
-    std::vector<std::int32_t, ZeroedAllocator<std::int32_t>> index;
-    std::vector<float, ZeroedAllocator<float>> squared_distance;
+    ZeroedVector<std::int32_t> index;
+    ZeroedVector<float> squared_distance;
     std::size_t used = 0;
     bool is_taken = false;  // By a writer.
   };

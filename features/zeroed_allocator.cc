@@ -4,6 +4,7 @@
 #include "features/zeroed_allocator.h"
 
 #include <cstdlib>
+#include <cstring>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -26,7 +27,7 @@ std::size_t InWholePages(std::size_t num_bytes) {
 
 }  // namespace
 
-void* AllocateZeroed(std::size_t num_bytes) {
+void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
 #if defined(__linux__)
   if (IsHuge(num_bytes)) {
     // A size of whole huge pages is placed where one begins (Linux 6.7 on).
@@ -42,9 +43,16 @@ void* AllocateZeroed(std::size_t num_bytes) {
     return memory;
   }
 #endif
-  void* memory = std::calloc(1, num_bytes);
+  if (alignment <= alignof(std::max_align_t)) {
+    void* memory = std::calloc(1, num_bytes);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+  }
+  const std::size_t size = (num_bytes + alignment - 1) / alignment * alignment;
+  void* memory =
+      size < num_bytes ? nullptr : std::aligned_alloc(alignment, size);
   if (memory == nullptr) throw std::bad_alloc();
-  return memory;
+  return std::memset(memory, 0, size);
 }
 
 void FreeZeroed(void* memory, std::size_t num_bytes) noexcept {

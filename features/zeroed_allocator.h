@@ -17,19 +17,21 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace quatro {
 
-// Throws std::bad_alloc.
-void* AllocateZeroed(std::size_t num_bytes);
+// Throws std::bad_alloc. `alignment` of no more than a page.
+void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment);
 
 // Of as many bytes as were allocated.
 void FreeZeroed(void* memory, std::size_t num_bytes) noexcept;
 
-// Of a vector that is never made smaller.
+// Of a vector that is never made smaller, of what is T() if all of its bytes
+// are zero.
 template <typename T>
 struct ZeroedAllocator {
-  static_assert(std::is_arithmetic_v<T>);
+  static_assert(std::is_trivially_copyable_v<T>);
   using value_type = T;
 
   ZeroedAllocator() = default;
@@ -41,7 +43,7 @@ struct ZeroedAllocator {
     if (n > std::numeric_limits<std::size_t>::max() / sizeof(T)) {
       throw std::bad_array_new_length();
     }
-    return static_cast<T*>(AllocateZeroed(n * sizeof(T)));
+    return static_cast<T*>(AllocateZeroed(n * sizeof(T), alignof(T)));
   }
   void deallocate(T* memory, std::size_t n) noexcept {
     FreeZeroed(memory, n * sizeof(T));
@@ -55,6 +57,9 @@ struct ZeroedAllocator {
 
   bool operator==(const ZeroedAllocator&) const { return true; }
 };
+
+template <typename T>
+using ZeroedVector = std::vector<T, ZeroedAllocator<T>>;
 
 }  // namespace quatro
 

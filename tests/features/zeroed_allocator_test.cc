@@ -14,7 +14,7 @@
 namespace quatro {
 namespace {
 
-using Zeros = std::vector<std::uint64_t, ZeroedAllocator<std::uint64_t>>;
+using Zeros = ZeroedVector<std::uint64_t>;
 
 TEST(ZeroedAllocator, IsZeroAndCanBeWrittenAtAnySize) {
   constexpr std::size_t kHugePage = (std::size_t{1} << 21) / 8;
@@ -33,6 +33,17 @@ TEST(ZeroedAllocator, IsZeroAndCanBeWrittenAtAnySize) {
       const Zeros copy = numbers;
       ASSERT_EQ(copy, numbers);
     }
+  }
+}
+
+TEST(ZeroedAllocator, IsAligned) {
+  struct alignas(64) Row {
+    float x[16] = {};
+  };
+  for (const std::size_t size : {1u, 7u, 100000u}) {
+    const ZeroedVector<Row> rows(size);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(rows.data()) % 64, 0u) << size;
+    EXPECT_EQ(rows.back().x[15], 0.0f);
   }
 }
 
