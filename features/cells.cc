@@ -41,7 +41,7 @@ std::optional<Cells> Cells::Make(const Points& points, double radius) {
   result.y_shift_ = bits[2];
   result.x_shift_ = bits[2] + bits[1];
   result.num_key_bits_ = bits[2] + bits[1] + bits[0];
-  std::vector<KeyedIndex> keyed(static_cast<std::size_t>(n));
+  ZeroedVector<KeyedIndex> keyed(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Vector3d cell =
         (points.col(i) - result.low_) / result.width_ + Eigen::Vector3d::Ones();

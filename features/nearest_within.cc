@@ -75,7 +75,7 @@ std::vector<std::int32_t> FindNearestWithin(const KdTree& tree,
   if (!cells) return FindByTree(tree, places, radius, num_threads);
   std::vector<std::int32_t> nearest(static_cast<std::size_t>(places.cols()),
                                     kNoneWithin);
-  std::vector<KeyedIndex> keyed;
+  ZeroedVector<KeyedIndex> keyed;
   keyed.reserve(nearest.size());
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     const auto key = cells->KeyOf(places.col(i));

@@ -17,7 +17,7 @@ constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
 #if defined(__linux__)
 bool IsHuge(std::size_t num_bytes) {
-  return num_bytes >= kHugePage &&
+  return num_bytes >= kHugePage / 2 &&
          num_bytes <= std::numeric_limits<std::size_t>::max() - kHugePage;
 }
 std::size_t InWholePages(std::size_t num_bytes) {

@@ -3,8 +3,8 @@
 // For large vectors of numbers that start at zero and are written once: fresh
 // memory from the system is zero already, and need not be written twice.
 //
-// From a huge page (2 MiB) on it is asked for in such pages where the system
-// has them. A page is a fault when it is first written, a dozen times as long
+// From half a huge page (1 MiB) on it is asked for in such pages where the
+// system has them. The first write to a page is a fault, a dozen times as long
 // as the writing for pages of 4 KiB; and rows that lie far apart stay within
 // reach of the processor's table of pages.
 
