@@ -3,10 +3,12 @@
 
 #include "robust/contact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "features/nearest_within.h"
+#include "features/parallel.h"
 
 namespace quatro {
 namespace {
@@ -44,13 +46,23 @@ MutualContacts FindMutualContacts(const SurfaceCloud& source,
                                   const Rigid3& target_from_source,
                                   double max_distance,
                                   int num_threads) {
-  return {FindContacts(
-              source, target, target_from_source, max_distance, num_threads),
-          FindContacts(target,
-                       source,
-                       Inverse(target_from_source),
-                       max_distance,
-                       num_threads)};
+  MutualContacts contacts;
+  // What either does by one thread alone is done beside the other's.
+  const int num_threads_each = std::max(1, NumThreadsToUse(num_threads) / 2);
+  ParallelDo(
+      num_threads,
+      [&] {
+        contacts.of_source = FindContacts(
+            source, target, target_from_source, max_distance, num_threads_each);
+      },
+      [&] {
+        contacts.of_target = FindContacts(target,
+                                          source,
+                                          Inverse(target_from_source),
+                                          max_distance,
+                                          num_threads_each);
+      });
+  return contacts;
 }
 
 }  // namespace quatro
