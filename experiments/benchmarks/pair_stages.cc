@@ -398,7 +398,7 @@ void AddVerdict(const Adder& add) {
     const MutualContacts contacts =
         FindMutualContacts(source, target, pose, hold.max_distance, threads);
     benchmark::DoNotOptimize(
-        MeasureStructureHold(source, target, pose, contacts, hold));
+        MeasureStructureHold(source, target, pose, contacts, hold, threads));
     benchmark::DoNotOptimize(MeasureGeometricEvidence(
         source, target, pose, contacts, evidence, threads));
   });
