@@ -8,87 +8,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <utility>
 #include <vector>
 
+#include "features/cells.h"
 #include "features/lanes.h"
 #include "features/parallel.h"
-#include "features/radix_sort.h"
 
 namespace quatro {
 namespace {
-
-// Cells may be so many on each axis that rounding keeps (1) if they are wider
-// than the radius by one part in a million.
-constexpr double kMaxCells = 1 << 20;
-constexpr double kWider = 1.0 + 1e-6;
-
-struct Cell {
-  std::uint64_t key;
-  std::size_t begin, end;  // Of its points, in order of cells.
-};
-
-struct Cells {
-  std::vector<std::int32_t> order;  // Points, cell by cell.
-  std::vector<Cell> cells;          // In ascending order of keys.
-  int y_shift = 0, x_shift = 0;     // Of these axes in a key, above z.
-
-  // The points in those of three cells, one after the other along z, that are
-  // not empty.
-  std::pair<std::size_t, std::size_t> PointsInColumn(std::uint64_t key) const {
-    const auto first = std::lower_bound(
-        cells.begin(), cells.end(), key, [](const Cell& cell, auto wanted) {
-          return cell.key < wanted;
-        });
-    if (first == cells.end() || first->key > key + 2) return {0, 0};
-    auto last = first;
-    while (last + 1 != cells.end() && (last + 1)->key <= key + 2) ++last;
-    return {first->begin, last->end};
-  }
-};
-
-std::optional<Cells> MakeCells(const Points& points, double radius) {
-  Cells result;
-  const Eigen::Index n = points.cols();
-  if (n == 0) return result;
-  const Eigen::Vector3d low = points.rowwise().minCoeff();
-  const Eigen::Vector3d extents = points.rowwise().maxCoeff() - low;
-  const double extent = extents.maxCoeff();
-  const double width = radius * kWider;
-  // An extent that overflows, or none of any radius, has no cells.
-  if (!(extent < kMaxCells * width && std::isfinite(extent))) {
-    return std::nullopt;
-  }
-  // Cells from 1, so that there is one below, and one above the last.
-  int bits[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    bits[axis] = static_cast<int>(std::bit_width(
-        static_cast<std::uint64_t>(extents[axis] / width + 2.0)));
-  }
-  result.y_shift = bits[2];
-  result.x_shift = bits[2] + bits[1];
-  std::vector<KeyedIndex> keyed(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto cell = static_cast<std::uint64_t>(
-          (points(axis, i) - low[axis]) / width + 1.0);
-      key = key << bits[axis] | cell;
-    }
-    keyed[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
-  }
-  RadixSort(bits[0] + bits[1] + bits[2], &keyed);
-  result.order.reserve(keyed.size());
-  for (const auto& [key, i] : keyed) {
-    if (result.cells.empty() || result.cells.back().key != key) {
-      result.cells.push_back({key, result.order.size(), result.order.size()});
-    }
-    result.order.push_back(i);
-    result.cells.back().end = result.order.size();
-  }
-  return result;
-}
 
 // Ascending. By a row of bits where the indices are close together, as those of
 // a sampled cloud are.
@@ -122,39 +49,19 @@ struct alignas(64) Block {
   std::int32_t index[kLanes];
 };
 
-// Rows of several points, one after the other. Room for more is not set to
-// zero: it is several times what gets used.
-struct Rows {
-  std::unique_ptr<std::int32_t[]> index;
-  std::unique_ptr<float[]> squared_distance;
-  std::size_t size = 0;
-  std::size_t capacity = 0;
+using Room = NeighborhoodsBuilder::Writer::Room;
 
-  void MakeRoomFor(std::size_t num_more) {
-    if (size + num_more <= capacity) return;
-    capacity = 2 * (size + num_more);
-    auto more_index = std::make_unique_for_overwrite<std::int32_t[]>(capacity);
-    auto more_distance = std::make_unique_for_overwrite<float[]>(capacity);
-    std::copy_n(index.get(), size, more_index.get());
-    std::copy_n(squared_distance.get(), size, more_distance.get());
-    index = std::move(more_index);
-    squared_distance = std::move(more_distance);
-  }
-};
-
-// Those of the blocks' points within the radius of `query`, to the end of
-// *rows, which has room for all of them.
+// Those of the blocks' points within the radius of `query`, and how many. There
+// is room for all of them.
 template <int kBytes>
-QUATRO_SIMD_INLINE void Append(const std::vector<Block>& blocks,
-                               const double* query,
-                               double squared_radius,
-                               Rows* rows) {
+QUATRO_SIMD_INLINE std::size_t Choose(const std::vector<Block>& blocks,
+                                      const double* query,
+                                      double squared_radius,
+                                      const Room& room) {
   using Double = typename Lanes<kBytes>::Double;
   using Int = typename Lanes<kBytes>::Int;
   constexpr int kDoubles = kBytes / 8;
-  std::int32_t* index = rows->index.get();
-  float* squared_distance = rows->squared_distance.get();
-  std::size_t size = rows->size;
+  std::size_t size = 0;
   for (const Block& block : blocks) {
     alignas(64) double d2[kLanes];
     Int passed = {};
@@ -179,43 +86,42 @@ QUATRO_SIMD_INLINE void Append(const std::vector<Block>& blocks,
          bits != 0;
          bits &= bits - 1) {
       const int lane = std::countr_zero(bits);
-      index[size] = block.index[lane];
-      squared_distance[size] = static_cast<float>(d2[lane]);
+      room.index[size] = block.index[lane];
+      room.squared_distance[size] = static_cast<float>(d2[lane]);
       ++size;
     }
   }
-  rows->size = size;
+  return size;
 }
 
-QUATRO_SIMD_AVX512 void AppendByAvx512(const std::vector<Block>& blocks,
-                                       const double* query,
-                                       double squared_radius,
-                                       Rows* rows) {
-  Append<64>(blocks, query, squared_radius, rows);
+QUATRO_SIMD_AVX512 std::size_t ChooseByAvx512(const std::vector<Block>& blocks,
+                                              const double* query,
+                                              double squared_radius,
+                                              const Room& room) {
+  return Choose<64>(blocks, query, squared_radius, room);
 }
 
-QUATRO_SIMD_AVX2 void AppendByAvx2(const std::vector<Block>& blocks,
-                                   const double* query,
-                                   double squared_radius,
-                                   Rows* rows) {
-  Append<32>(blocks, query, squared_radius, rows);
+QUATRO_SIMD_AVX2 std::size_t ChooseByAvx2(const std::vector<Block>& blocks,
+                                          const double* query,
+                                          double squared_radius,
+                                          const Room& room) {
+  return Choose<32>(blocks, query, squared_radius, room);
 }
 
-void Append(const std::vector<Block>& blocks,
-            const double* query,
-            double squared_radius,
-            SimdLevel level,
-            Rows* rows) {
-  rows->MakeRoomFor(blocks.size() * kLanes);
+std::size_t Choose(const std::vector<Block>& blocks,
+                   const double* query,
+                   double squared_radius,
+                   SimdLevel level,
+                   const Room& room) {
   switch (level) {
     case SimdLevel::kAvx512:
-      return AppendByAvx512(blocks, query, squared_radius, rows);
+      return ChooseByAvx512(blocks, query, squared_radius, room);
     case SimdLevel::kAvx2:
-      return AppendByAvx2(blocks, query, squared_radius, rows);
+      return ChooseByAvx2(blocks, query, squared_radius, room);
     case SimdLevel::kBaseline:
       break;
   }
-  Append<16>(blocks, query, squared_radius, rows);
+  return Choose<16>(blocks, query, squared_radius, room);
 }
 
 std::vector<Block> MakeBlocks(const Points& points,
@@ -241,79 +147,31 @@ std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
                                                       double radius,
                                                       int num_threads,
                                                       SimdLevel level) {
-  const std::optional<Cells> cells = MakeCells(points, radius);
+  const std::optional<Cells> cells = Cells::Make(points, radius);
   if (!cells) return std::nullopt;
-  const auto num_points = static_cast<std::size_t>(points.cols());
-  const auto num_cells = static_cast<Eigen::Index>(cells->cells.size());
-
-  // Rows in the order of cells, by pieces of so many.
-  constexpr Eigen::Index kPiece = 32;
-  std::vector<Rows> pieces(
-      static_cast<std::size_t>((num_cells + kPiece - 1) / kPiece));
-  std::vector<std::size_t> begin_in_piece(num_points);
-  Neighborhoods result;
-  result.row_begin.assign(num_points + 1, 0);
+  NeighborhoodsBuilder builder(points.cols());
   const auto find = [&](Eigen::Index begin, Eigen::Index end) {
-    Rows& rows = pieces[static_cast<std::size_t>(begin / kPiece)];
+    NeighborhoodsBuilder::Writer writer(&builder);
+    Cells::Walk walk(*cells);
     std::vector<std::int32_t> near;
     std::vector<std::uint64_t> bits;
     for (Eigen::Index c = begin; c < end; ++c) {
-      const Cell& cell = cells->cells[static_cast<std::size_t>(c)];
-      near.clear();
-      for (std::uint64_t x = 0; x < 3; ++x) {
-        for (std::uint64_t y = 0; y < 3; ++y) {
-          const std::uint64_t corner = (std::uint64_t{1} << cells->x_shift) +
-                                       (std::uint64_t{1} << cells->y_shift) + 1;
-          const auto [first, last] =
-              cells->PointsInColumn(cell.key - corner + (x << cells->x_shift) +
-                                    (y << cells->y_shift));
-          near.insert(near.end(),
-                      cells->order.data() + first,
-                      cells->order.data() + last);
-        }
-      }
+      const Cells::Cell& cell = cells->cells()[static_cast<std::size_t>(c)];
+      walk.FindNear(cell.key, &near);
       Sort(&near, &bits);
       const std::vector<Block> blocks = MakeBlocks(points, near);
       for (std::size_t k = cell.begin; k < cell.end; ++k) {
-        const auto i = static_cast<std::size_t>(cells->order[k]);
-        begin_in_piece[i] = rows.size;
-        Append(blocks,
-               points.col(cells->order[k]).data(),
-               radius * radius,
-               level,
-               &rows);
-        result.row_begin[i + 1] =
-            static_cast<std::int64_t>(rows.size - begin_in_piece[i]);
+        const std::int32_t i = cells->order()[k];
+        const Room room = writer.MakeRoom(blocks.size() * kLanes);
+        writer.Add(
+            i,
+            Choose(blocks, points.col(i).data(), radius * radius, level, room));
       }
     }
   };
-  ParallelFor(num_threads, num_cells, kPiece, find);
-
-  for (std::size_t i = 0; i < num_points; ++i) {
-    result.row_begin[i + 1] += result.row_begin[i];
-  }
-  result.index.resize(static_cast<std::size_t>(result.row_begin.back()));
-  result.squared_distance.resize(result.index.size());
-  const auto move = [&](Eigen::Index begin, Eigen::Index end) {
-    Rows& rows = pieces[static_cast<std::size_t>(begin / kPiece)];
-    const std::size_t first =
-        cells->cells[static_cast<std::size_t>(begin)].begin;
-    const std::size_t last =
-        cells->cells[static_cast<std::size_t>(end - 1)].end;
-    for (std::size_t k = first; k < last; ++k) {
-      const auto i = static_cast<std::size_t>(cells->order[k]);
-      const auto to = static_cast<std::size_t>(result.row_begin[i]);
-      const auto size = static_cast<std::size_t>(result.row_begin[i + 1]) - to;
-      std::copy_n(
-          rows.index.get() + begin_in_piece[i], size, &result.index[to]);
-      std::copy_n(rows.squared_distance.get() + begin_in_piece[i],
-                  size,
-                  &result.squared_distance[to]);
-    }
-    rows = Rows();
-  };
-  ParallelFor(num_threads, num_cells, kPiece, move);
-  return result;
+  ParallelFor(
+      num_threads, static_cast<Eigen::Index>(cells->cells().size()), 32, find);
+  return std::move(builder).Finish();
 }
 
 }  // namespace quatro

@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The points around each point of a cloud, all at once: within a cell as wide
-// as the radius, all points have theirs in the same 27 cells,
-//
-//   |p - q| <= radius  =>  |cell(p) - cell(q)| <= 1 on each axis,           (1)
-//
-// so these are put in order once a cell, and every distance from a point of it
-// to one of them is computed, 16 at once. Distances and their order are those
-// of KdTree::WithinRadius(), to the last bit.
+// The points around each point of a cloud, all at once: all points of a cell
+// (features/cells.h) have theirs in the same 27 cells, so these are put in
+// order once a cell, and every distance from a point of it to one of them is
+// computed, 16 at once. Distances and their order are those of
+// KdTree::WithinRadius(), to the last bit.
 
 #ifndef QUATRO_FEATURES_CELL_NEIGHBORHOODS_H_
 #define QUATRO_FEATURES_CELL_NEIGHBORHOODS_H_

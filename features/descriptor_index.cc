@@ -22,6 +22,9 @@ using Coordinates = Eigen::Matrix<float, kNumAxes, Eigen::Dynamic>;
 using Corner = Eigen::Array<float, kNumAxes, 1>;
 
 bool IsDescriptor(const Fpfh& descriptors, Eigen::Index i) {
+  // A sum that is neither is of numbers that are not all zero, and all finite.
+  const float sum = descriptors.col(i).cwiseAbs().sum();
+  if (sum > 0.0f && std::isfinite(sum)) return true;
   return !descriptors.col(i).isZero(0.0f) && descriptors.col(i).allFinite();
 }
 
@@ -82,6 +85,10 @@ class Search {
     coordinates_ = query.coordinates;
     start_ = query.best;
     any_ = any;
+    squared_length_ = 0.0f;
+    for (int axis = 0; axis < kNumAxes; ++axis) {
+      squared_length_ += coordinates_[axis] * coordinates_[axis];
+    }
     for (int piece = 0; piece < kNumPieces; ++piece) {
       best_[piece] = Float{} + start_.squared_distance;
       best_index_[piece] = Int{} + start_.index;
@@ -177,25 +184,27 @@ class Search {
             Piece<kBytes>(boxes.low[axis], piece) - coordinates_[axis];
         const Float above =
             coordinates_[axis] - Piece<kBytes>(boxes.high[axis], piece);
-        const Float outer = below > above ? below : above;
-        const Float outside = outer > zero ? outer : zero;
-        sum[piece] += outside * outside;
+        Float outside;
+        Instructions<kBytes>::Max(below, above, &outside);
+        Instructions<kBytes>::Max(outside, zero, &outside);
+        Instructions<kBytes>::AddProduct(outside, outside, &sum[piece]);
       }
     }
   }
 
-  // Equation (1), or the same along the axes.
-  template <int kSize>
-  QUATRO_SIMD_INLINE static void ToTile(const FloatRow (&rows)[kSize],
-                                        const float* query,
-                                        Float (&sum)[kNumPieces]) {
+  // Equation (4), but for the query's own length.
+  QUATRO_SIMD_INLINE static void ToTileAlong(
+      const DescriptorIndex::TileAlong& tile,
+      const Float (&minus_twice)[kNumAxes],
+      Float (&sum)[kNumPieces]) {
     for (int piece = 0; piece < kNumPieces; ++piece) {
-      sum[piece] = Float{};
+      sum[piece] = Piece<kBytes>(tile.squared_length, piece);
       // So that several tiles are under way at once.
-#pragma GCC unroll 33
-      for (int d = 0; d < kSize; ++d) {
-        const Float difference = Piece<kBytes>(rows[d], piece) - query[d];
-        sum[piece] += difference * difference;
+#pragma GCC unroll 16
+      for (int axis = 0; axis < kNumAxes; ++axis) {
+        Instructions<kBytes>::AddProduct(Piece<kBytes>(tile.axis[axis], piece),
+                                         minus_twice[axis],
+                                         &sum[piece]);
       }
     }
   }
@@ -205,17 +214,23 @@ class Search {
                                    std::size_t box) {
     Float sum[kNumPieces];
     ToBoxes(parts.tile_boxes[box], sum);
-    const Tile* chosen[kLanes];
+    // By value: kept in registers.
+    Float minus_twice[kNumAxes];
+    for (int axis = 0; axis < kNumAxes; ++axis) {
+      minus_twice[axis] = Float{} - 2.0f * coordinates_[axis];
+    }
+    const float limit = limit_ + parts.squared_margin - squared_length_;
+    std::size_t chosen[kLanes];
     int num_chosen = 0;
     for (std::uint32_t bits = BitsNotAbove<kBytes>(sum, limit_); bits != 0;
          bits &= bits - 1) {
-      const Tile& tile = parts.tiles[box * kLanes + FirstOf(bits)];
-      ToTile(tile.along, coordinates_, sum);
-      chosen[num_chosen] = &tile;
-      num_chosen += BitsNotAbove<kBytes>(sum, limit_) != 0;
+      const std::size_t tile = box * kLanes + FirstOf(bits);
+      ToTileAlong(parts.tiles_along[tile], minus_twice, sum);
+      chosen[num_chosen] = tile;
+      num_chosen += BitsNotAbove<kBytes>(sum, limit) != 0;
     }
     if (num_chosen == 0) return false;
-    for (int k = 0; k < num_chosen; ++k) LookAt(*chosen[k]);
+    for (int k = 0; k < num_chosen; ++k) LookAt(parts.tiles[chosen[k]]);
     const float least = LeastOf(best_);
     if (least < least_) SetLeast(parts, least);
     return any_ &&
@@ -223,21 +238,26 @@ class Search {
   }
 
   QUATRO_SIMD_INLINE void LookAt(const Tile& tile) {
-    Float sum[kNumPieces];
-    ToTile(tile.bins, descriptor_, sum);
     for (int piece = 0; piece < kNumPieces; ++piece) {
+      Float sum = {};  // Equation (1).
+#pragma GCC unroll 33
+      for (int d = 0; d < kFpfhSize; ++d) {
+        const Float difference =
+            Piece<kBytes>(tile.bins[d], piece) - descriptor_[d];
+        sum += difference * difference;
+      }
       const Int index = Piece<kBytes>(tile.index, piece);
       // Each choice by one comparison: GCC makes others one lane at a time.
       const Int lower = index < best_index_[piece] ? index : best_index_[piece];
-      const Int of_equals =
-          sum[piece] == best_[piece] ? lower : best_index_[piece];
-      best_index_[piece] = sum[piece] < best_[piece] ? index : of_equals;
-      best_[piece] = sum[piece] < best_[piece] ? sum[piece] : best_[piece];
+      const Int of_equals = sum == best_[piece] ? lower : best_index_[piece];
+      best_index_[piece] = sum < best_[piece] ? index : of_equals;
+      best_[piece] = sum < best_[piece] ? sum : best_[piece];
     }
   }
 
   const float* descriptor_;
   const float* coordinates_;
+  float squared_length_;  // Along the axes.
   NearestDescriptor start_;
   bool any_;
   bool is_done_;  // Some is enough, and found.
@@ -323,6 +343,7 @@ DescriptorAxes FindAxes(const Fpfh& a, const Fpfh& b) {
                         .transpose()
                         .cast<float>();
   axes.margin = 4e-5f * std::sqrt(largest);
+  axes.squared_margin = 8e-6f * largest;
   return axes;
 }
 
@@ -339,7 +360,9 @@ DescriptorIndex::DescriptorIndex(const Fpfh& descriptors,
   const std::size_t num_tiles = (order_.size() + kLanes - 1) / kLanes;
   const std::size_t num_boxes = (num_tiles + kLanes - 1) / kLanes;
   parts_.margin = axes.margin;
-  parts_.tiles.resize(num_tiles);
+  parts_.squared_margin = axes.squared_margin;
+  parts_.tiles = ZeroedVector<Tile>(num_tiles);
+  parts_.tiles_along = ZeroedVector<TileAlong>(num_tiles);
   parts_.tile_boxes = EmptyBoxes(num_tiles);
   parts_.large_boxes = EmptyBoxes(num_boxes);
   for (std::size_t box = 0; box < num_boxes; ++box) {
@@ -350,11 +373,13 @@ DescriptorIndex::DescriptorIndex(const Fpfh& descriptors,
       Corner low = Corner::Constant(kInfinity);
       Corner high = -low;
       Tile& tile = parts_.tiles[t];
+      DescriptorIndex::TileAlong& along = parts_.tiles_along[t];
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t at = t * kLanes + lane;
         if (at >= order_.size()) {
           for (FloatRow& row : tile.bins) row.lane[lane] = kInfinity;
-          for (FloatRow& row : tile.along) row.lane[lane] = kInfinity;
+          for (FloatRow& row : along.axis) row.lane[lane] = 0.0f;
+          along.squared_length.lane[lane] = kInfinity;
           tile.index.lane[lane] = kNone;
           continue;
         }
@@ -363,8 +388,9 @@ DescriptorIndex::DescriptorIndex(const Fpfh& descriptors,
           tile.bins[d].lane[lane] = descriptors(d, i);
         }
         for (int axis = 0; axis < kNumAxes; ++axis) {
-          tile.along[axis].lane[lane] = coordinates_(axis, i);
+          along.axis[axis].lane[lane] = coordinates_(axis, i);
         }
+        along.squared_length.lane[lane] = coordinates_.col(i).squaredNorm();
         tile.index.lane[lane] = i;
         low = low.min(coordinates_.col(i).array());
         high = high.max(coordinates_.col(i).array());

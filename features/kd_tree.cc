@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <nanoflann.hpp>
 #include <optional>
 #include <utility>
@@ -67,21 +69,54 @@ struct NearestBelow {
   std::size_t size() const { return index ? 1 : 0; }
 };
 
+// find(i) returns the neighbours of point i.
+template <typename Find>
+Neighborhoods FindRows(Eigen::Index num_points,
+                       int num_threads,
+                       const Find& find) {
+  NeighborhoodsBuilder builder(num_points);
+  const auto find_some = [&](Eigen::Index begin, Eigen::Index end) {
+    NeighborhoodsBuilder::Writer writer(&builder);
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const std::vector<Neighbor> found = find(i);
+      const auto room = writer.MakeRoom(found.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        room.index[k] = static_cast<std::int32_t>(found[k].index);
+        room.squared_distance[k] =
+            static_cast<float>(found[k].squared_distance);
+      }
+      writer.Add(i, found.size());
+    }
+  };
+  ParallelFor(num_threads, num_points, 256, find_some);
+  return std::move(builder).Finish();
+}
+
 }  // namespace
 
-struct KdTree::Index {
-  explicit Index(const Points& points)
-      : adaptor{points},
-        tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
-    tree.buildIndex();
+class KdTree::Index {
+ public:
+  explicit Index(const Points& points) : adaptor_{points} {}
+
+  // Built when it is first asked for, which may never be.
+  const Tree& tree() {
+    std::call_once(once_, [this] {
+      tree_ = std::make_unique<Tree>(
+          3, adaptor_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
+      tree_->buildIndex();
+    });
+    return *tree_;
   }
-  Adaptor adaptor;
-  Tree tree;
+
+ private:
+  Adaptor adaptor_;
+  std::once_flag once_;
+  std::unique_ptr<Tree> tree_;
 };
 
 KdTree::KdTree(Points points)
     : points_(std::make_unique<const Points>(std::move(points))),
-      index_(std::make_unique<const Index>(*points_)) {}
+      index_(std::make_unique<Index>(*points_)) {}
 KdTree::~KdTree() = default;
 KdTree::KdTree(KdTree&&) noexcept = default;
 KdTree& KdTree::operator=(KdTree&&) noexcept = default;
@@ -92,7 +127,7 @@ std::vector<Neighbor> KdTree::WithinRadius(const Eigen::Vector3d& query,
   const double squared_radius = radius * radius;
   nanoflann::SearchParams params;
   params.sorted = false;
-  index_->tree.radiusSearch(
+  index_->tree().radiusSearch(
       query.data(), LimitOf(squared_radius), found, params);
   std::sort(found.begin(), found.end());
   std::vector<Neighbor> neighbors;
@@ -109,7 +144,7 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
   if (k == 1) {
     std::uint32_t index = 0;
     double squared_distance = 0.0;
-    if (index_->tree.knnSearch(query.data(), 1, &index, &squared_distance) ==
+    if (index_->tree().knnSearch(query.data(), 1, &index, &squared_distance) ==
         0) {
       return {};
     }
@@ -117,7 +152,7 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
   }
   std::vector<std::uint32_t> indices(static_cast<std::size_t>(k));
   std::vector<double> d2(static_cast<std::size_t>(k));
-  const std::size_t num_found = index_->tree.knnSearch(
+  const std::size_t num_found = index_->tree().knnSearch(
       query.data(), static_cast<std::size_t>(k), indices.data(), d2.data());
   std::vector<Neighbor> neighbors;
   neighbors.reserve(num_found);
@@ -131,7 +166,8 @@ std::optional<Neighbor> KdTree::NearestWithin(const Eigen::Vector3d& query,
                                               double radius) const {
   const double squared_radius = radius * radius;
   NearestBelow nearest{LimitOf(squared_radius), std::nullopt};
-  index_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
+  index_->tree().findNeighbors(
+      nearest, query.data(), nanoflann::SearchParams());
   if (!nearest.index || nearest.limit > squared_radius) return std::nullopt;
   return Neighbor{*nearest.index, nearest.limit};
 }
@@ -143,58 +179,17 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
           tree.points(), radius, num_threads, BestSimdLevel())) {
     return *std::move(found);
   }
-  const Eigen::Index n = tree.points().cols();
-  std::vector<std::vector<Neighbor>> rows(static_cast<std::size_t>(n));
-  ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      rows[static_cast<std::size_t>(i)] =
-          tree.WithinRadius(tree.points().col(i), radius);
-    }
+  return FindRows(tree.points().cols(), num_threads, [&](Eigen::Index i) {
+    return tree.WithinRadius(tree.points().col(i), radius);
   });
-
-  Neighborhoods result;
-  result.row_begin.assign(1, 0);
-  for (const auto& row : rows) {
-    result.row_begin.push_back(result.row_begin.back() +
-                               static_cast<std::int64_t>(row.size()));
-  }
-  result.index.reserve(static_cast<std::size_t>(result.row_begin.back()));
-  result.squared_distance.reserve(result.index.capacity());
-  for (auto& row : rows) {
-    for (const Neighbor& neighbor : row) {
-      result.index.push_back(static_cast<std::int32_t>(neighbor.index));
-      result.squared_distance.push_back(
-          static_cast<float>(neighbor.squared_distance));
-    }
-    std::vector<Neighbor>().swap(row);
-  }
-  return result;
 }
 
 Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
                                        int k,
                                        int num_threads) {
-  const Eigen::Index n = tree.points().cols();
-  const Eigen::Index row_size = std::clamp<Eigen::Index>(k, 0, n);
-  Neighborhoods result;
-  for (Eigen::Index i = 0; i <= n; ++i) {
-    result.row_begin.push_back(i * row_size);
-  }
-  result.index.resize(static_cast<std::size_t>(n * row_size));
-  result.squared_distance.resize(result.index.size());
-  ParallelFor(num_threads, n, 256, [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      const auto nearest =
-          tree.Nearest(tree.points().col(i), static_cast<int>(row_size));
-      auto at = static_cast<std::size_t>(i * row_size);
-      for (const Neighbor& neighbor : nearest) {
-        result.index[at] = static_cast<std::int32_t>(neighbor.index);
-        result.squared_distance[at++] =
-            static_cast<float>(neighbor.squared_distance);
-      }
-    }
+  return FindRows(tree.points().cols(), num_threads, [&](Eigen::Index i) {
+    return tree.Nearest(tree.points().col(i), k);
   });
-  return result;
 }
 
 }  // namespace quatro

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "features/neighborhoods.h"
 #include "features/types.h"
 
 namespace quatro {
@@ -22,7 +23,7 @@ struct Neighbor {
 };
 
 // Holds its own copy of the points, which must be finite. Const members may be
-// called from several threads.
+// called from several threads; the first call builds the tree.
 class KdTree {
  public:
   // Of these points; it can be moved, not copied.
@@ -47,26 +48,13 @@ class KdTree {
                                         double radius) const;
 
  private:
-  struct Index;
+  class Index;
   std::unique_ptr<const Points> points_;
-  std::unique_ptr<const Index> index_;
+  std::unique_ptr<Index> index_;
 };
 
-// The points around each point of a cloud, itself among them, as compressed
-// rows: row i is [row_begin[i], row_begin[i + 1]) of `index`
-// (ascending) and `squared_distance`.
-struct Neighborhoods {
-  std::vector<std::int64_t> row_begin;
-  std::vector<std::int32_t> index;
-  std::vector<float> squared_distance;  // [m^2]
-
-  // How many points have a row.
-  Eigen::Index size() const {
-    return static_cast<Eigen::Index>(row_begin.size()) - 1;
-  }
-};
-
-// Of each point of the tree, those within `radius` [m].
+// Of each point of the tree those within `radius` [m], in ascending order of
+// index.
 Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);

@@ -14,6 +14,10 @@
 
 #include "features/simd.h"
 
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
+#include <immintrin.h>
+#endif
+
 namespace quatro {
 
 constexpr int kLanes = 16;
@@ -97,20 +101,91 @@ QUATRO_SIMD_INLINE std::int32_t MinOf(const typename Lanes<kBytes>::Int& x) {
   }
 }
 
+// What the compiler's vectors have no operator for and some levels have one
+// instruction for. Results go to a place given, for the reason above.
+template <int kBytes>
+struct Instructions {
+  using Float = typename Lanes<kBytes>::Float;
+
+  // The larger of each.
+  QUATRO_SIMD_INLINE static void Max(const Float& a,
+                                     const Float& b,
+                                     Float* max) {
+    *max = a > b ? a : b;
+  }
+
+  // *sum += a b. Whether the product is rounded first depends on the level: not
+  // for what has to be the same at all of them.
+  QUATRO_SIMD_INLINE static void AddProduct(const Float& a,
+                                            const Float& b,
+                                            Float* sum) {
+    *sum += a * b;
+  }
+
+  // Bit k is set iff lane k is <= limit.
+  QUATRO_SIMD_INLINE static std::uint32_t BitsNotAbove(const Float& x,
+                                                       float limit) {
+    typename Lanes<kBytes>::Int weight;
+    for (int lane = 0; lane < Lanes<kBytes>::kPieceLanes; ++lane) {
+      weight[lane] = 1 << lane;
+    }
+    return static_cast<std::uint32_t>(OrOf<kBytes>((x <= limit) & weight));
+  }
+};
+
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
+template <>
+struct Instructions<32> {
+  using Float = typename Lanes<32>::Float;
+
+  QUATRO_SIMD_AVX2 static void Max(const Float& a, const Float& b, Float* max) {
+    *max = _mm256_max_ps(a, b);
+  }
+  QUATRO_SIMD_AVX2 static void AddProduct(const Float& a,
+                                          const Float& b,
+                                          Float* sum) {
+    *sum = _mm256_fmadd_ps(a, b, *sum);
+  }
+  QUATRO_SIMD_AVX2 static std::uint32_t BitsNotAbove(const Float& x,
+                                                     float limit) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(
+        _mm256_cmp_ps(x, _mm256_set1_ps(limit), _CMP_LE_OQ)));
+  }
+};
+
+template <>
+struct Instructions<64> {
+  using Float = typename Lanes<64>::Float;
+
+  QUATRO_SIMD_AVX512 static void Max(const Float& a,
+                                     const Float& b,
+                                     Float* max) {
+    // With a mask: GCC 12 takes the plain one's for uninitialized.
+    *max = _mm512_maskz_max_ps(0xffff, a, b);
+  }
+  QUATRO_SIMD_AVX512 static void AddProduct(const Float& a,
+                                            const Float& b,
+                                            Float* sum) {
+    *sum = _mm512_fmadd_ps(a, b, *sum);
+  }
+  QUATRO_SIMD_AVX512 static std::uint32_t BitsNotAbove(const Float& x,
+                                                       float limit) {
+    return _mm512_cmp_ps_mask(x, _mm512_set1_ps(limit), _CMP_LE_OQ);
+  }
+};
+#endif
+
 // Bit k is set iff lane k is <= limit.
 template <int kBytes>
 QUATRO_SIMD_INLINE std::uint32_t BitsNotAbove(
     const typename Lanes<kBytes>::Float (&x)[Lanes<kBytes>::kNumPieces],
     float limit) {
-  typename Lanes<kBytes>::Int bits = {};
+  std::uint32_t bits = 0;
   for (int piece = 0; piece < Lanes<kBytes>::kNumPieces; ++piece) {
-    typename Lanes<kBytes>::Int weight;
-    for (int lane = 0; lane < Lanes<kBytes>::kPieceLanes; ++lane) {
-      weight[lane] = 1 << (piece * Lanes<kBytes>::kPieceLanes + lane);
-    }
-    bits |= (x[piece] <= limit) & weight;
+    bits |= Instructions<kBytes>::BitsNotAbove(x[piece], limit)
+            << (piece * Lanes<kBytes>::kPieceLanes);
   }
-  return static_cast<std::uint32_t>(OrOf<kBytes>(bits));
+  return bits;
 }
 
 }  // namespace quatro

@@ -51,15 +51,13 @@ Points EstimateNormals(const PointsRef& points,
   Points normals = Points::Zero(3, points.cols());
   const auto limit = static_cast<float>(radius * radius);
   const auto estimate = [&](Eigen::Index i, std::vector<std::int32_t>* near) {
-    const auto row = static_cast<std::size_t>(i);
-    const auto begin = static_cast<std::size_t>(neighborhoods.row_begin[row]);
-    const auto end = static_cast<std::size_t>(neighborhoods.row_begin[row + 1]);
+    const Neighborhoods::Row& row = neighborhoods.row(i);
     // Without a branch, which would be taken at random.
-    near->resize(std::max(near->size(), end - begin));
+    near->resize(std::max(near->size(), row.size()));
     std::size_t count = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      (*near)[count] = neighborhoods.index[k];
-      count += neighborhoods.squared_distance[k] <= limit ? 1 : 0;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      (*near)[count] = row.index[k];
+      count += row.squared_distance[k] <= limit ? 1 : 0;
     }
     if (count < 3) return;
     const Eigen::Matrix3d scatter =

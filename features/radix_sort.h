@@ -10,7 +10,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "features/zeroed_allocator.h"
 
 namespace quatro {
 
@@ -21,10 +22,10 @@ struct KeyedIndex {
 };
 
 // Keys are below 2^num_bits.
-inline void RadixSort(int num_bits, std::vector<KeyedIndex>* keyed) {
+inline void RadixSort(int num_bits, ZeroedVector<KeyedIndex>* keyed) {
   constexpr int kDigitBits = 11;
   constexpr std::uint64_t kMask = (1 << kDigitBits) - 1;
-  std::vector<KeyedIndex> sorted(keyed->size());
+  ZeroedVector<KeyedIndex> sorted(keyed->size());
   for (int shift = 0; shift < num_bits; shift += kDigitBits) {
     std::array<std::size_t, kMask + 1> begin{};
     for (const KeyedIndex& item : *keyed) ++begin[item.key >> shift & kMask];

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
-#include <vector>
 
 #include "features/radix_sort.h"
+#include "features/zeroed_allocator.h"
 
 namespace quatro {
 namespace {
@@ -59,7 +59,7 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
     bits[axis] = static_cast<int>(std::bit_width(
         static_cast<std::uint64_t>(last_cell[axis] - first_cell[axis])));
   }
-  std::vector<KeyedIndex> keyed(static_cast<std::size_t>(points.cols()));
+  ZeroedVector<KeyedIndex> keyed(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -71,7 +71,11 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
   }
   RadixSort(bits[0] + bits[1] + bits[2], &keyed);
 
-  Points samples(3, points.cols());
+  Eigen::Index num_cells = 1;
+  for (std::size_t k = 1; k < keyed.size(); ++k) {
+    num_cells += keyed[k].key != keyed[k - 1].key;
+  }
+  Points samples(3, num_cells);
   Eigen::Index num_samples = 0;
   for (auto begin = keyed.begin(); begin != keyed.end();) {
     // Offsets from the cell's corner, in cells, are in [0, 1).
@@ -89,7 +93,6 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
         (corner + sum.cast<double>() * scale) * voxel_size;
     begin = end;
   }
-  samples.conservativeResize(3, num_samples);
   return samples;
 }
 

@@ -111,7 +111,7 @@ class Graph {
 
   int num_vertices_;
   int words_per_row_;
-  std::vector<Word, ZeroedAllocator<Word>> rows_;
+  ZeroedVector<Word> rows_;
 };
 
 // What two matches must agree in.

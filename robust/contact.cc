@@ -3,14 +3,19 @@
 
 #include "robust/contact.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "features/nearest_within.h"
 #include "features/parallel.h"
 
 namespace quatro {
 namespace {
 
 constexpr double kMinNormalCosine = 0.8;
+
+static_assert(kNoContact == kNoneWithin);
 
 }  // namespace
 
@@ -23,20 +28,17 @@ Contacts FindContacts(const SurfaceCloud& a,
                       const Rigid3& b_from_a,
                       double max_distance,
                       int num_threads) {
+  // A place that is not finite is near to nothing.
   const Points& points = a.tree.points();
-  Contacts contacts(static_cast<std::size_t>(points.cols()), kNoContact);
-  const auto look = [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      if (a.normals.col(i).isZero(0.0)) continue;
-      const auto nearest = b.tree.NearestWithin(
-          b_from_a * Eigen::Vector3d(points.col(i)), max_distance);
-      if (!nearest) continue;
-      contacts[static_cast<std::size_t>(i)] =
-          static_cast<std::int32_t>(nearest->index);
+  Points places(3, points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (a.normals.col(i).isZero(0.0)) {
+      places.col(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      places.col(i) = b_from_a * Eigen::Vector3d(points.col(i));
     }
-  };
-  ParallelFor(num_threads, points.cols(), 512, look);
-  return contacts;
+  }
+  return FindNearestWithin(b.tree, places, max_distance, num_threads);
 }
 
 MutualContacts FindMutualContacts(const SurfaceCloud& source,
@@ -44,13 +46,23 @@ MutualContacts FindMutualContacts(const SurfaceCloud& source,
                                   const Rigid3& target_from_source,
                                   double max_distance,
                                   int num_threads) {
-  return {FindContacts(
-              source, target, target_from_source, max_distance, num_threads),
-          FindContacts(target,
-                       source,
-                       Inverse(target_from_source),
-                       max_distance,
-                       num_threads)};
+  MutualContacts contacts;
+  // What either does by one thread alone is done beside the other's.
+  const int num_threads_each = std::max(1, NumThreadsToUse(num_threads) / 2);
+  ParallelDo(
+      num_threads,
+      [&] {
+        contacts.of_source = FindContacts(
+            source, target, target_from_source, max_distance, num_threads_each);
+      },
+      [&] {
+        contacts.of_target = FindContacts(target,
+                                          source,
+                                          Inverse(target_from_source),
+                                          max_distance,
+                                          num_threads_each);
+      });
+  return contacts;
 }
 
 }  // namespace quatro

@@ -168,10 +168,17 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
   }
   const Rigid3 source_from_target = Inverse(target_from_source);
   const double max_distance = options.MaxDistance();
-  const auto of_source =
-      FindStructure(source, target, target_from_source, contacts.of_source);
-  const auto of_target =
-      FindStructure(target, source, source_from_target, contacts.of_target);
+  std::vector<StructurePoint> of_source, of_target;
+  ParallelDo(
+      num_threads,
+      [&] {
+        of_source = FindStructure(
+            source, target, target_from_source, contacts.of_source);
+      },
+      [&] {
+        of_target = FindStructure(
+            target, source, source_from_target, contacts.of_target);
+      });
   const auto source_share = ShareMet(of_source);
   const auto target_share = ShareMet(of_target);
   if (!source_share || !target_share) return std::nullopt;
@@ -231,19 +238,29 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
                                  options.rival,
                                  num_threads);
   const Rigid3& rival = evidence.rival.rival_target_from_source;
-  AddFreeSpace(FindStructure(source, target, rival, max_distance, num_threads),
+  const int num_threads_each = std::max(1, NumThreadsToUse(num_threads) / 2);
+  ParallelDo(
+      num_threads,
+      [&] {
+        of_source = FindStructure(
+            source, target, rival, max_distance, num_threads_each);
+      },
+      [&] {
+        of_target = FindStructure(
+            target, source, Inverse(rival), max_distance, num_threads_each);
+      });
+  AddFreeSpace(of_source,
                source,
                target_image,
                rival,
                max_distance,
                &evidence.rival_free_space);
-  AddFreeSpace(
-      FindStructure(target, source, Inverse(rival), max_distance, num_threads),
-      target,
-      source_image,
-      Inverse(rival),
-      max_distance,
-      &evidence.rival_free_space);
+  AddFreeSpace(of_target,
+               target,
+               source_image,
+               Inverse(rival),
+               max_distance,
+               &evidence.rival_free_space);
   return evidence;
 }
 

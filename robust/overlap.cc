@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "features/parallel.h"
+#include "features/nearest_within.h"
 #include "robust/contact.h"
 
 namespace quatro {
@@ -70,16 +70,17 @@ std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
                                           double max_distance,
                                           int num_threads) {
   std::vector<StructurePoint> found = FindCounted(a, b, b_from_a);
-  const auto look = [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index k = begin; k < end; ++k) {
-      StructurePoint& point = found[static_cast<std::size_t>(k)];
-      const auto nearest = b.tree.NearestWithin(
-          b_from_a * Eigen::Vector3d(a.tree.points().col(point.index)),
-          max_distance);
-      if (nearest) SetNearest(a, b, b_from_a, nearest->index, &point);
-    }
-  };
-  ParallelFor(num_threads, static_cast<Eigen::Index>(found.size()), 256, look);
+  Points places(3, static_cast<Eigen::Index>(found.size()));
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    places.col(static_cast<Eigen::Index>(k)) =
+        b_from_a * Eigen::Vector3d(a.tree.points().col(found[k].index));
+  }
+  const auto nearest =
+      FindNearestWithin(b.tree, places, max_distance, num_threads);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (nearest[k] == kNoneWithin) continue;
+    SetNearest(a, b, b_from_a, nearest[k], &found[k]);
+  }
   return found;
 }
 

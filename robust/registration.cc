@@ -33,8 +33,8 @@ std::optional<GeometricEvidence> WeighGeometry(
   hold.max_distance = evidence.MaxDistance();
   const MutualContacts contacts = FindMutualContacts(
       source, target, pose, hold.max_distance, options.num_threads);
-  summary->structure_hold =
-      MeasureStructureHold(source, target, pose, contacts, hold);
+  summary->structure_hold = MeasureStructureHold(
+      source, target, pose, contacts, hold, options.num_threads);
   if (summary->structure_hold) {
     auto& unheld = summary->solution.covariance->unheld;
     unheld.insert(unheld.end(),

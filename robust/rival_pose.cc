@@ -190,8 +190,12 @@ RivalPose FindRivalPose(const SurfaceCloud& source,
       [&] { source_grid.emplace(source, max_distance); },
       [&] { target_grid.emplace(target, max_distance); });
   const auto sample_both = [&](Eigen::Index num) {
-    return std::array{SampleStructure(source, num),
-                      SampleStructure(target, num)};
+    std::array<StructureSample, 2> samples;
+    ParallelDo(
+        num_threads,
+        [&] { samples[0] = SampleStructure(source, num); },
+        [&] { samples[1] = SampleStructure(target, num); });
+    return samples;
   };
   const auto searched = sample_both(options.num_search_points);
   const auto compared = sample_both(options.num_compared_points);

@@ -80,7 +80,8 @@ StructureGrid::StructureGrid(const SurfaceCloud& cloud, double max_distance)
   }
   low_ = low;
   size_ = ((high - low) / cell_size_).ceil().cast<int>().max(1);
-  cells_.assign(static_cast<std::size_t>(size_.cast<double>().prod()), 0);
+  cells_ = ZeroedVector<std::uint8_t>(
+      static_cast<std::size_t>(size_.cast<double>().prod()));
 
   const auto column_at = [&](int x, int y) {
     return cells_.data() +

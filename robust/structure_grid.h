@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "features/types.h"
+#include "features/zeroed_allocator.h"
 #include "robust/overlap.h"
 #include "solvers/rigid3.h"
 
@@ -67,10 +68,10 @@ class StructureGrid {
  private:
   Eigen::Vector3d sensor_;
   double max_range_;
-  double cell_size_;                 // [m]
-  Eigen::Vector3d low_;              // The grid's corner, from the sensor [m].
-  Eigen::Array3i size_;              // Number of cells on each axis.
-  std::vector<std::uint8_t> cells_;  // z fastest.
+  double cell_size_;                  // [m]
+  Eigen::Vector3d low_;               // The grid's corner, from the sensor [m].
+  Eigen::Array3i size_;               // Number of cells on each axis.
+  ZeroedVector<std::uint8_t> cells_;  // z fastest.
 };
 
 }  // namespace quatro

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "features/parallel.h"
+
 namespace quatro {
 namespace {
 
@@ -46,18 +48,20 @@ struct Sums {
   Eigen::Index num_structure = 0;
 };
 
-void AddTo(const MetPoints& met, const Eigen::Vector3d& center, Sums* sums) {
+Sums SumUp(const MetPoints& met, const Eigen::Vector3d& center) {
+  Sums sums;
   for (std::size_t i = 0; i < met.points.size(); ++i) {
     const Eigen::Vector3d x = met.points[i] - center;
     const Eigen::Vector3d& n = met.normals[i];
     Vector6 a;
     a << x.cross(n), n;
-    sums->information += a * a.transpose();
-    sums->scatter += x * x.transpose();
+    sums.information += a * a.transpose();
+    sums.scatter += x * x.transpose();
     if (std::abs(n.z()) > kMaxVertical) continue;
-    ++sums->num_structure;
-    sums->level += n.head<2>() * n.head<2>().transpose();
+    ++sums.num_structure;
+    sums.level += n.head<2>() * n.head<2>().transpose();
   }
+  return sums;
 }
 
 // In [0, 1].
@@ -112,7 +116,8 @@ std::optional<StructureHold> MeasureStructureHold(
                                                  target_from_source,
                                                  options.max_distance,
                                                  num_threads),
-                              options);
+                              options,
+                              num_threads);
 }
 
 std::optional<StructureHold> MeasureStructureHold(
@@ -120,11 +125,19 @@ std::optional<StructureHold> MeasureStructureHold(
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
     const MutualContacts& contacts,
-    const StructureHoldOptions& options) {
-  const MetPoints of_source =
-      FindMet(source, target, target_from_source, contacts.of_source);
-  MetPoints of_target =
-      FindMet(target, source, Inverse(target_from_source), contacts.of_target);
+    const StructureHoldOptions& options,
+    int num_threads) {
+  MetPoints of_source, of_target;
+  ParallelDo(
+      num_threads,
+      [&] {
+        of_source =
+            FindMet(source, target, target_from_source, contacts.of_source);
+      },
+      [&] {
+        of_target = FindMet(
+            target, source, Inverse(target_from_source), contacts.of_target);
+      });
   StructureHold hold;
   hold.num_met = static_cast<Eigen::Index>(of_source.points.size() +
                                            of_target.points.size());
@@ -145,14 +158,17 @@ std::optional<StructureHold> MeasureStructureHold(
   for (const auto& point : of_source.points) mean += point - origin;
   for (const auto& point : of_target.points) mean += point - origin;
   hold.center = origin + mean / n;
-  Sums sums;
-  AddTo(of_source, hold.center, &sums);
-  AddTo(of_target, hold.center, &sums);
-  hold.information = sums.information / n;
-  hold.scatter = sums.scatter / n;
-  hold.num_structure = sums.num_structure;
+  Sums source_sums, target_sums;
+  ParallelDo(
+      num_threads,
+      [&] { source_sums = SumUp(of_source, hold.center); },
+      [&] { target_sums = SumUp(of_target, hold.center); });
+  hold.information = (source_sums.information + target_sums.information) / n;
+  hold.scatter = (source_sums.scatter + target_sums.scatter) / n;
+  hold.num_structure = source_sums.num_structure + target_sums.num_structure;
   if (hold.num_structure > 0) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> level(sums.level);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> level(
+        source_sums.level + target_sums.level);
     hold.weakest_level_axis.head<2>() = level.eigenvectors().col(0);
     hold.weakest_level_share =
         std::max(0.0, level.eigenvalues()[0]) / level.eigenvalues().sum();

@@ -76,7 +76,8 @@ std::optional<StructureHold> MeasureStructureHold(
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
     const MutualContacts& contacts,
-    const StructureHoldOptions& options);
+    const StructureHoldOptions& options,
+    int num_threads);
 
 }  // namespace quatro
 

@@ -84,17 +84,21 @@ void ForBoth(const PairInput& pair, const Body& body) {
 
 // FindNeighborhoods() by the tree alone, one point after another.
 Neighborhoods FindByTree(const KdTree& tree, double radius) {
-  Neighborhoods found;
-  found.row_begin.push_back(0);
-  for (const auto point : tree.points().colwise()) {
-    for (const Neighbor& neighbor : tree.WithinRadius(point, radius)) {
-      found.index.push_back(static_cast<std::int32_t>(neighbor.index));
-      found.squared_distance.push_back(
-          static_cast<float>(neighbor.squared_distance));
+  NeighborhoodsBuilder builder(tree.points().cols());
+  {
+    NeighborhoodsBuilder::Writer writer(&builder);
+    for (Eigen::Index i = 0; i < tree.points().cols(); ++i) {
+      const auto found = tree.WithinRadius(tree.points().col(i), radius);
+      const auto room = writer.MakeRoom(found.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        room.index[k] = static_cast<std::int32_t>(found[k].index);
+        room.squared_distance[k] =
+            static_cast<float>(found[k].squared_distance);
+      }
+      writer.Add(i, found.size());
     }
-    found.row_begin.push_back(static_cast<std::int64_t>(found.index.size()));
   }
-  return found;
+  return std::move(builder).Finish();
 }
 
 void AddFrontEnd(const Adder& add) {
@@ -127,8 +131,8 @@ void AddFrontEnd(const Adder& add) {
                                    pair.options.num_threads);
         });
         (*c)["neighbors"] =
-            static_cast<double>(pair.clouds[0].neighborhoods.index.size() +
-                                pair.clouds[1].neighborhoods.index.size());
+            static_cast<double>(pair.clouds[0].neighborhoods.num_neighbors() +
+                                pair.clouds[1].neighborhoods.num_neighbors());
       });
   add("neighborhoods/nanoflann",
       Needs::kClouds,
@@ -394,7 +398,7 @@ void AddVerdict(const Adder& add) {
     const MutualContacts contacts =
         FindMutualContacts(source, target, pose, hold.max_distance, threads);
     benchmark::DoNotOptimize(
-        MeasureStructureHold(source, target, pose, contacts, hold));
+        MeasureStructureHold(source, target, pose, contacts, hold, threads));
     benchmark::DoNotOptimize(MeasureGeometricEvidence(
         source, target, pose, contacts, evidence, threads));
   });

@@ -55,12 +55,10 @@ Fpfh ComposeAsPeersDo(const Points& points,
                       bool adds_own) {
   const Eigen::Index n = points.cols();
   const auto for_each_neighbor = [&](Eigen::Index i, const auto& visit) {
-    const auto row = static_cast<std::size_t>(i);
-    for (auto k = static_cast<std::size_t>(neighborhoods.row_begin[row]);
-         k < static_cast<std::size_t>(neighborhoods.row_begin[row + 1]);
-         ++k) {
-      const Eigen::Index j = neighborhoods.index[k];
-      if (j != i) visit(j, neighborhoods.squared_distance[k]);
+    const Neighborhoods::Row& row = neighborhoods.row(i);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const Eigen::Index j = row.index[k];
+      if (j != i) visit(j, row.squared_distance[k]);
     }
   };
   Fpfh spfh = Fpfh::Zero(kFpfhSize, n);

@@ -21,7 +21,7 @@
 namespace quatro {
 namespace {
 
-using ::testing::ElementsAre;
+using ::testing::Contains;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -116,6 +116,38 @@ std::vector<double> Radii(const Points& points, const Eigen::Vector3d& query) {
     radii.push_back(std::sqrt(SquaredDistance(query, points.col(i))));
   }
   return radii;
+}
+
+// What the tree finds about its point i, in order and bit for bit.
+bool IsRowOf(const Neighborhoods::Row& row,
+             const KdTree& tree,
+             Eigen::Index i,
+             double radius) {
+  const auto found = tree.WithinRadius(tree.points().col(i), radius);
+  if (row.size() != found.size() ||
+      row.squared_distance.size() != found.size()) {
+    return false;
+  }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (row.index[k] != found[k].index ||
+        row.squared_distance[k] !=
+            static_cast<float>(found[k].squared_distance)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool AreSame(const Neighborhoods& a, const Neighborhoods& b) {
+  if (a.size() != b.size()) return false;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    if (!std::ranges::equal(a.row(i).index, b.row(i).index) ||
+        !std::ranges::equal(a.row(i).squared_distance,
+                            b.row(i).squared_distance)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 TEST(KdTree, WithinRadiusIsTheClosedBallInOrderOfIndex) {
@@ -230,8 +262,7 @@ TEST(KdTree, EmptyTreeFindsNothing) {
   EXPECT_THAT(tree.Nearest(Eigen::Vector3d::Zero(), 3), IsEmpty());
   const Neighborhoods none = FindNeighborhoods(tree, 1.0, 2);
   EXPECT_EQ(none.size(), 0);
-  EXPECT_THAT(none.row_begin, ElementsAre(0));
-  EXPECT_THAT(none.index, IsEmpty());
+  EXPECT_EQ(none.num_neighbors(), 0u);
   EXPECT_FALSE(tree.NearestWithin({0.0, 0.0, 0.0}, 1.0));
 }
 
@@ -259,25 +290,9 @@ TEST(FindNeighborhoods, RowsAreTheBallsAboutEachPoint) {
     for (const double radius : {0.05, 0.1, 1.0, 10.0}) {
       const Neighborhoods rows = FindNeighborhoods(tree, radius, 1);
       ASSERT_EQ(rows.size(), points.cols());
-      ASSERT_EQ(rows.row_begin.front(), 0);
-      ASSERT_EQ(rows.row_begin.back(),
-                static_cast<std::int64_t>(rows.index.size()));
-      ASSERT_EQ(rows.index.size(), rows.squared_distance.size());
       for (Eigen::Index i = 0; i < points.cols(); ++i) {
-        const auto row = tree.WithinRadius(points.col(i), radius);
-        auto k = static_cast<std::size_t>(
-            rows.row_begin[static_cast<std::size_t>(i)]);
-        ASSERT_EQ(static_cast<std::int64_t>(k + row.size()),
-                  rows.row_begin[static_cast<std::size_t>(i + 1)]);
-        bool has_itself = false;
-        for (const Neighbor& neighbor : row) {
-          ASSERT_EQ(rows.index[k], neighbor.index);
-          ASSERT_EQ(rows.squared_distance[k],
-                    static_cast<float>(neighbor.squared_distance));
-          has_itself |= neighbor.index == i;
-          ++k;
-        }
-        ASSERT_TRUE(has_itself) << "point " << i;
+        ASSERT_TRUE(IsRowOf(rows.row(i), tree, i, radius)) << "point " << i;
+        ASSERT_THAT(rows.row(i).index, Contains(i));
       }
     }
   }
@@ -294,17 +309,7 @@ TEST(FindNeighborhoodsByCells, IsTheSameByAnyInstructions) {
         const auto rows = FindNeighborhoodsByCells(points, radius, 1, level);
         ASSERT_TRUE(rows);
         for (Eigen::Index i = 0; i < points.cols(); ++i) {
-          const auto row = tree.WithinRadius(points.col(i), radius);
-          auto k = static_cast<std::size_t>(
-              rows->row_begin[static_cast<std::size_t>(i)]);
-          ASSERT_EQ(rows->row_begin[static_cast<std::size_t>(i + 1)],
-                    static_cast<std::int64_t>(k + row.size()));
-          for (const Neighbor& neighbor : row) {
-            ASSERT_EQ(rows->index[k], neighbor.index);
-            ASSERT_EQ(rows->squared_distance[k],
-                      static_cast<float>(neighbor.squared_distance));
-            ++k;
-          }
+          ASSERT_TRUE(IsRowOf(rows->row(i), tree, i, radius)) << "point " << i;
         }
       }
     }
@@ -322,20 +327,17 @@ TEST(FindNeighborhoodsByCells, CloudsWiderThanItsCellsAreLeftToTheTree) {
   EXPECT_TRUE(by_cells(2.0));
   EXPECT_FALSE(by_cells(1.0));
   const Neighborhoods rows = FindNeighborhoods(KdTree(points), 1.0, 1);
-  EXPECT_EQ(rows.row_begin[8] - rows.row_begin[7], 1);
-  EXPECT_GT(rows.index.size(), 200u);
+  EXPECT_EQ(rows.row(7).size(), 1u);
+  EXPECT_GT(rows.num_neighbors(), 200u);
 }
 
 TEST(FindNeighborhoods, DoesNotDependOnTheNumberOfThreads) {
   const KdTree tree(RandomStreet(3000, 0.02, 1));
   const Neighborhoods one = FindNeighborhoods(tree, 0.6, 1);
-  ASSERT_GT(one.index.size(), 10000u);
+  ASSERT_GT(one.num_neighbors(), 10000u);
   for (const int num_threads : {0, 2, 3}) {
     const Neighborhoods several = FindNeighborhoods(tree, 0.6, num_threads);
-    EXPECT_EQ(several.row_begin, one.row_begin) << num_threads << " threads";
-    EXPECT_EQ(several.index, one.index) << num_threads << " threads";
-    EXPECT_EQ(several.squared_distance, one.squared_distance)
-        << num_threads << " threads";
+    EXPECT_TRUE(AreSame(several, one)) << num_threads << " threads";
   }
 }
 
@@ -344,21 +346,18 @@ TEST(FindNearestNeighborhoods, RowsAreTheNearestOfEachPoint) {
     const KdTree tree(points);
     const Neighborhoods two = FindNearestNeighborhoods(tree, 7, 2);
     const Neighborhoods one = FindNearestNeighborhoods(tree, 7, 1);
-    EXPECT_EQ(one.index, two.index) << name;
+    EXPECT_TRUE(AreSame(one, two)) << name;
     ASSERT_EQ(one.size(), points.cols()) << name;
     for (Eigen::Index i = 0; i < one.size(); ++i) {
-      const auto begin = one.row_begin[static_cast<std::size_t>(i)];
-      const auto end = one.row_begin[static_cast<std::size_t>(i) + 1];
+      const Neighborhoods::Row& row = one.row(i);
       const std::vector<double> expected =
           BruteForceNearestDistances(points, points.col(i), 7);
-      ASSERT_EQ(end - begin, static_cast<std::int64_t>(expected.size()));
+      ASSERT_EQ(row.size(), expected.size());
       std::vector<double> distances;
-      for (auto at = static_cast<std::size_t>(begin);
-           at < static_cast<std::size_t>(end);
-           ++at) {
+      for (std::size_t k = 0; k < row.size(); ++k) {
         const double d2 =
-            SquaredDistance(points.col(i), points.col(one.index[at]));
-        EXPECT_EQ(one.squared_distance[at], static_cast<float>(d2));
+            SquaredDistance(points.col(i), points.col(row.index[k]));
+        EXPECT_EQ(row.squared_distance[k], static_cast<float>(d2));
         distances.push_back(d2);
       }
       EXPECT_EQ(distances, expected) << name;
@@ -369,10 +368,10 @@ TEST(FindNearestNeighborhoods, RowsAreTheNearestOfEachPoint) {
 TEST(FindNearestNeighborhoods, FewerPointsThanAskedForAreAllFound) {
   const KdTree tree(RandomPoints(3, 1.0, 1));
   const Neighborhoods all = FindNearestNeighborhoods(tree, 20, 1);
-  EXPECT_THAT(all.row_begin, ElementsAre(0, 3, 6, 9));
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(all.index[3 * i], static_cast<std::int32_t>(i));
-    EXPECT_EQ(all.squared_distance[3 * i], 0.0f);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    ASSERT_EQ(all.row(i).size(), 3u);
+    EXPECT_EQ(all.row(i).index[0], i);
+    EXPECT_EQ(all.row(i).squared_distance[0], 0.0f);
   }
   EXPECT_EQ(FindNearestNeighborhoods(KdTree(Points(3, 0)), 20, 1).size(), 0);
 }

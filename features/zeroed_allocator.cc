@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/zeroed_allocator.h"
+
+#include <cstdlib>
+#include <cstring>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace quatro {
+namespace {
+
+constexpr std::size_t kHugePage = std::size_t{1} << 21;
+
+#if defined(__linux__)
+bool IsHuge(std::size_t num_bytes) {
+  return num_bytes >= kHugePage / 2 &&
+         num_bytes <= std::numeric_limits<std::size_t>::max() - kHugePage;
+}
+std::size_t InWholePages(std::size_t num_bytes) {
+  return (num_bytes + kHugePage - 1) / kHugePage * kHugePage;
+}
+#endif
+
+}  // namespace
+
+void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
+#if defined(__linux__)
+  if (IsHuge(num_bytes)) {
+    // A size of whole huge pages is placed where one begins (Linux 6.7 on).
+    const std::size_t size = InWholePages(num_bytes);
+    void* memory = mmap(nullptr,
+                        size,
+                        PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS,
+                        -1,
+                        0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    madvise(memory, size, MADV_HUGEPAGE);  // Advice: it may say no.
+    return memory;
+  }
+#endif
+  if (alignment <= alignof(std::max_align_t)) {
+    void* memory = std::calloc(1, num_bytes);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+  }
+  const std::size_t size = (num_bytes + alignment - 1) / alignment * alignment;
+  void* memory =
+      size < num_bytes ? nullptr : std::aligned_alloc(alignment, size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return std::memset(memory, 0, size);
+}
+
+void FreeZeroed(void* memory, std::size_t num_bytes) noexcept {
+#if defined(__linux__)
+  if (IsHuge(num_bytes)) {
+    munmap(memory, InWholePages(num_bytes));
+    return;
+  }
+#endif
+  std::free(memory);
+}
+
+}  // namespace quatro
