@@ -24,7 +24,7 @@ struct ZeroedAllocator {
   ZeroedAllocator() = default;
   // From that of another type; there is nothing to copy.
   template <typename U>
-  ZeroedAllocator(const ZeroedAllocator<U>&) {}
+  explicit ZeroedAllocator(const ZeroedAllocator<U>&) {}
 
   T* allocate(std::size_t n) {
     void* memory = std::calloc(n, sizeof(T));
