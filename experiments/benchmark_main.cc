@@ -139,7 +139,7 @@ int Main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (IsOfBenchmark(argv[i])) {
       theirs.push_back(argv[i]);
-      their_args.push_back(argv[i]);
+      their_args.emplace_back(argv[i]);
     } else {
       ours.push_back(argv[i]);
     }

@@ -253,7 +253,7 @@ std::vector<Vector2d> PlanDrive(const City& city,
   const auto add_line = [&](const Vector2d& from, const Vector2d& to) {
     const double length = (to - from).norm();
     for (double t = 0.0; t < length; t += kFine) {
-      fine.push_back(from + t / length * (to - from));
+      fine.emplace_back(from + t / length * (to - from));
     }
   };
   const auto unit = [&](size_t i) -> Vector2d {
@@ -280,8 +280,8 @@ std::vector<Vector2d> PlanDrive(const City& city,
     const Vector2d end = control + kTurn * next;
     add_line(from, begin);
     for (double t = 0.0; t < 1.0; t += kFine / kTurn / 2.0) {
-      fine.push_back((1.0 - t) * (1.0 - t) * begin +
-                     2.0 * t * (1.0 - t) * control + t * t * end);
+      fine.emplace_back((1.0 - t) * (1.0 - t) * begin +
+                        2.0 * t * (1.0 - t) * control + t * t * end);
     }
     from = end;
   }

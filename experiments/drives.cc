@@ -232,7 +232,7 @@ Drive MakeBuildingDrive(const DriveOptions& options, const Plan& plan) {
     const Vector2d to = building.Crossing(route[i + 1].x(), route[i + 1].y());
     const double length = (to - from).norm();
     for (double t = 0.0; t < length; t += kFine) {
-      fine.push_back(from + t / length * (to - from));
+      fine.emplace_back(from + t / length * (to - from));
     }
   }
   // Rounds the corners off.
@@ -243,7 +243,7 @@ Drive MakeBuildingDrive(const DriveOptions& options, const Plan& plan) {
   for (size_t i = kWindow; i + kWindow < fine.size(); i += step) {
     Vector2d sum = Vector2d::Zero();
     for (size_t j = i - kWindow; j <= i + kWindow; ++j) sum += fine[j];
-    way.push_back(sum / (2.0 * kWindow + 1.0));
+    way.emplace_back(sum / (2.0 * kWindow + 1.0));
   }
   KeepFrames(options, &way);
   for (size_t i = 0; i < way.size(); ++i) {

@@ -37,7 +37,7 @@ struct ZeroedAllocator {
   ZeroedAllocator() = default;
   // From that of another type; there is nothing to copy.
   template <typename U>
-  ZeroedAllocator(const ZeroedAllocator<U>&) {}
+  explicit ZeroedAllocator(const ZeroedAllocator<U>&) {}
 
   T* allocate(std::size_t n) {
     if (n > std::numeric_limits<std::size_t>::max() / sizeof(T)) {

@@ -20,7 +20,8 @@ double ChiSquareTail(double x, int degrees_of_freedom) {
   const double h = 0.5 * x;
   const bool is_odd = degrees_of_freedom % 2 == 1;
   double tail = is_odd ? std::erfc(std::sqrt(h)) : 0.0;
-  for (double k = is_odd ? 0.5 : 0.0; k < 0.5 * degrees_of_freedom; k += 1.0) {
+  for (int i = 0; i < degrees_of_freedom / 2; ++i) {
+    const double k = is_odd ? i + 0.5 : i;
     tail += std::exp(k * std::log(h) - h - std::lgamma(k + 1.0));
   }
   return tail;

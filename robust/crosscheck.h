@@ -47,7 +47,7 @@ class CrossChecked {
     return subproblem_.SquaredResiduals(estimate);
   }
   std::optional<Estimate> Solve(const WeightsRef& weights) const {
-    const std::optional<Estimate> estimate = subproblem_.Solve(weights);
+    std::optional<Estimate> estimate = subproblem_.Solve(weights);
     if (estimate) {
       ++report_.num_subproblems;
       report_.max_rotation_difference =

@@ -100,6 +100,7 @@ std::vector<double> InputValues(const DistinctMatches& matches,
   }
   std::sort(of_columns.begin(), of_columns.end());
   std::vector<double> in_order;
+  in_order.reserve(of_columns.size());
   for (const auto& of_column : of_columns) in_order.push_back(of_column.second);
   return in_order;
 }

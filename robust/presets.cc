@@ -106,8 +106,10 @@ double SurfaceShareOfVoxels(const PointCloud& cloud, double voxel_size) {
 // size in reach does that.
 double SizeForSurfaces(const PointCloud& cloud, double voxel_size) {
   const double largest = kMaxGrowth * voxel_size;
-  for (double size = voxel_size; size <= largest; size *= kGrowth) {
+  double size = voxel_size;
+  while (size <= largest) {
     if (SurfaceShareOfVoxels(cloud, size) >= kWantedSurfaceShare) return size;
+    size *= kGrowth;
   }
   return voxel_size;
 }

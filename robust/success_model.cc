@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace quatro {
 namespace {
@@ -60,11 +61,12 @@ std::vector<Feature> MakeFeatures(
 
 double ProbabilityOfSuccess(const std::vector<Feature>& features) {
   const bool has_clouds = features.size() != std::size(kMatchesWeights);
-  CHECK(!has_clouds || features.size() == std::size(kCloudsWeights));
+  const std::span<const double> weights =
+      has_clouds ? std::span<const double>(kCloudsWeights) : kMatchesWeights;
+  CHECK_EQ(features.size(), weights.size());
   double sum = has_clouds ? kCloudsIntercept : kMatchesIntercept;
-  for (std::size_t j = 0; j < features.size(); ++j) {
-    sum += (has_clouds ? kCloudsWeights[j] : kMatchesWeights[j]) *
-           features[j].value;
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    sum += weights[j] * features[j].value;
   }
   return 1.0 / (1.0 + std::exp(-sum));
 }

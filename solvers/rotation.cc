@@ -32,7 +32,7 @@ RotationOfM RotationBySvd(const Eigen::Matrix3d& M) {
   const Eigen::Matrix3d& U = svd.matrixU();
   const Eigen::Matrix3d& V = svd.matrixV();
   const double sign = U.determinant() * V.determinant() < 0.0 ? -1.0 : 1.0;
-  const Eigen::Vector3d d = svd.singularValues();
+  const Eigen::Vector3d& d = svd.singularValues();
   return {U * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * V.transpose(),
           2.0 * (d[1] + sign * d[2])};
 }

@@ -355,9 +355,10 @@ void AddRefinement(const Adder& add) {
           (*c)["inliers"] = AsCount(summary.num_inliers);
         });
     if (method == Method::kVgicp) continue;
+    const std::string name_from_points = name + "_from_points/";
     const auto add_one = [&](const std::string& who,
                              decltype(&AlignFromPoints) align) {
-      add(name + "_from_points/" + who,
+      add(name_from_points + who,
           Needs::kPose,
           [method, align](const PairInput& pair, Counters* c) {
             const AlignmentSummary summary =

@@ -55,7 +55,7 @@ void CopyMemory(benchmark::State& state) {
   const std::size_t size = std::size_t{1} << 28;
   const std::vector<char> from(size, 1);
   std::vector<char> to(size, 2);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     std::memcpy(to.data(), from.data(), size);
     benchmark::DoNotOptimize(to.data());
     benchmark::ClobberMemory();
@@ -88,7 +88,7 @@ void BuildGraph(int size, int num_threads, benchmark::State& state) {
         problem.source, problem.target, options, num_threads));
   };
   const auto peak = MeasurePeakMemory(build);
-  for (auto _ : state) build();
+  for ([[maybe_unused]] auto _ : state) build();
   if (peak) state.counters["peak_bytes"] = *peak;
   state.counters["bitset_bytes"] = 0.125 * size * size;
 }
@@ -97,7 +97,7 @@ void TestPairs(int size, benchmark::State& state) {
   const MatchedProblem problem = MakeProblem(size, kOutlierRatio);
   PairTestLimit limit(
       problem.source, problem.target, ConsistencyOptions().bound);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     limit.Run(BestSimdLevel());
     benchmark::ClobberMemory();
   }
@@ -109,7 +109,8 @@ void FindClique(int size, int num_threads, benchmark::State& state) {
   const Graph graph = BuildConsistencyGraph(
       problem.source, problem.target, ConsistencyOptions(), num_threads);
   std::size_t clique_size = 0;
-  for (auto _ : state) clique_size = FindCliqueGreedily(graph).size();
+  for ([[maybe_unused]] auto _ : state)
+    clique_size = FindCliqueGreedily(graph).size();
   state.counters["clique"] = static_cast<double>(clique_size);
 }
 
@@ -118,7 +119,7 @@ void RunQuatro(int size, int num_threads, benchmark::State& state) {
   QuatroOptions options;
   options.num_threads = num_threads;
   QuatroSummary summary;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     summary = SolveQuatro(problem.source, problem.target, options);
   }
   ReportError(summary, problem, &state);
@@ -137,7 +138,7 @@ void SolveClique(benchmark::State& state) {
   const Weights bounds =
       Weights::Constant(weights.size(), rotation.noise_bound);
   double error = 0.0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const auto gnc = SolveGnc<TruncatedLeastSquares>(rotation, options.gnc);
     const auto exact =
         EstimateExactYaw(rotation.source, rotation.target, weights, bounds);
@@ -161,7 +162,7 @@ void RunArcConsensus(int size, int num_threads, benchmark::State& state) {
     summary = SolveArcConsensus(problem.source, problem.target, options);
   };
   const auto peak = MeasurePeakMemory(solve);
-  for (auto _ : state) solve();
+  for ([[maybe_unused]] auto _ : state) solve();
   if (peak) state.counters["peak_bytes"] = *peak;
   ReportError(summary, problem, &state);
 }

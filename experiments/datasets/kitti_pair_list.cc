@@ -80,7 +80,7 @@ std::optional<Entry> ParseEntry(std::string_view line, std::string* reason) {
 
 // "10-20 m" of kitti_lc_10_20.txt.
 std::string BinOf(const std::string& list) {
-  const std::string stem = fs::path(list).stem().string();
+  std::string stem = fs::path(list).stem().string();
   int min = 0, max = 0, end = 0;
   if (std::sscanf(stem.c_str(), "kitti_lc_%d_%d%n", &min, &max, &end) == 2 &&
       static_cast<std::size_t>(end) == stem.size()) {

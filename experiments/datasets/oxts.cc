@@ -156,7 +156,7 @@ std::optional<Rigid3> ReadImuToVelodyne(const std::string& path,
     *error = path + ": has no line " + (has_rotation ? "T:" : "R:");
     return std::nullopt;
   }
-  const auto velodyne_from_imu = NearestRigid3(matrix);
+  auto velodyne_from_imu = NearestRigid3(matrix);
   if (!velodyne_from_imu) *error = path + ": R: is not a rotation";
   return velodyne_from_imu;
 }
