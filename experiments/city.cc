@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kHalfWidth = 4.5;     // Of a carriageway [m].
+constexpr double kHalfWidth = 5.5;     // Of a carriageway [m].
 constexpr double kOutskirts = 60.0;    // Around the outermost streets [m].
 constexpr double kBendLength = 310.0;  // Wave length of (1) [m].
 
@@ -39,7 +39,9 @@ std::vector<double> GridLines(const std::vector<double>& axes) {
     x += distance < 16.0 ? 0.8 : 1.6;
   }
   for (const double axis : axes) {
-    for (const double d : {0.0, 1.1, 2.2, 3.4, 4.5, 4.53, 5.2, 6.1, 6.4}) {
+    for (const double beyond :
+         {-kHalfWidth, -4.4, -3.3, -2.2, -1.1, 0.0, 0.03, 0.7, 1.6, 1.9}) {
+      const double d = kHalfWidth + beyond;
       lines.push_back(axis + d);
       if (d > 0.0) lines.push_back(axis - d);
     }
@@ -215,6 +217,12 @@ Scene City::MakeScene() const {
   sides.clear_mouths = true;
   sides.terrace = options_.terrace;
   sides.reach = std::min(58.0, 0.42 * options_.block);
+  // More open than the street of road.h: voxels, matches and the share of true
+  // ones are then those of KITTI (compare_kitti.py).
+  sides.deeper = 6.0;
+  sides.gap = 20.0;
+  sides.park = 0.2;
+  sides.plants = 1.0;
   // The streets along u have the corners of the blocks.
   sides.corner = 4.0;
   for (const double axis : vs_) {
@@ -228,7 +236,7 @@ Scene City::MakeScene() const {
                    random.Next() >> 2,
                    scene);
   }
-  sides.corner = 24.0;
+  sides.corner = 26.0;
   for (const double axis : us_) {
     AddStreetSides(CityStreet(*this,
                               false,

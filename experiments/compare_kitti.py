@@ -9,11 +9,12 @@ Runs quatro_register on pairs with a known pose, and prints by distance the
 medians of how many voxels of 0.3 m a scan has, how many mutual matches there
 are, and the share of these that the true pose brings within 0.6 m.
 
-Then the same of each simulated list as shares of the real ones together, and how many of these are
-within a factor of 1.5.
+Then the same of each simulated list, and of all of them together, as shares of the real ones
+together, and how many of these are within a factor of 1.5.
 
 A list is a pairs.csv as run_pairs.py reads it, or a folder in KITTI's layout, of
-which pairs of frames are drawn. Of a real list, scans of less than --min_points
+which pairs of frames are drawn: beside real ones, within 0.4 m of their distances
+and 20 deg of their turns where there are such. Of a real list, scans of less than --min_points
 are left out: they have been thinned. Exit code: 0; 2 if a flag or a file is wrong.
 """
 import argparse
@@ -33,6 +34,8 @@ from run_pairs import BadInput, read_pairs
 
 BINS = (0.0, 2.5, 7.5, 12.5, 17.5, 25.0, 40.0)  # [m]
 MAX_ERROR = 0.6  # Of a true match [m].
+LIKE_DISTANCE = 0.4  # What a pair may be off from the real one it stands beside [m],
+LIKE_YAW = math.radians(20.0)  # and the turn between its scans.
 CLOSE = 1.5  # A ratio within 1/1.5 .. 1.5 is close.
 
 Pair = collections.namedtuple("Pair", "source target pose")  # pose: (R, t)
@@ -66,27 +69,56 @@ def read_rows(path, prefix=""):
     return [[row[0:4], row[4:8], row[8:12], [0.0, 0.0, 0.0, 1.0]] for row in rows]
 
 
-def pairs_of_sequence(folder, per_bin, seed):
+def heading(pose):
+    return math.atan2(pose[1][0], pose[0][0])
+
+
+def turn_between(a, b):
+    return abs(math.remainder(a - b, 2.0 * math.pi))
+
+
+def pairs_of_sequence(folder, per_bin, seed, models=None):
+    """Of each bin, pairs as far apart and as turned as the models there in turn; without
+    models, any."""
     tr = read_rows(folder / "calib.txt", "Tr:")[0]
     world_from_sensor = [product(product(inverse(tr), pose), tr)
                          for pose in read_rows(folder / "poses.txt")]
+    headings = [heading(pose) for pose in world_from_sensor]
     by_bin = collections.defaultdict(list)
     for i, target in enumerate(world_from_sensor):
         for j in range(i + 1, len(world_from_sensor)):
             source = world_from_sensor[j]
             distance = math.dist([r[3] for r in source[:3]], [r[3] for r in target[:3]])
-            by_bin[bin_of(distance)].append((i, j))
+            by_bin[bin_of(distance)].append((i, j, distance))
     draw = random.Random(seed)
     pairs = []
     for number, candidates in sorted(by_bin.items(), key=lambda item: str(item[0])):
         if number is None:
             continue
-        for i, j in draw.sample(candidates, min(per_bin, len(candidates))):
+        for i, j, _ in draw_like(candidates, (models or {}).get(number, []), headings, per_bin, draw):
             pose = product(inverse(world_from_sensor[i]), world_from_sensor[j])
             scans = [str(folder / "velodyne" / f"{k:06d}.bin") for k in (j, i)]
             pairs.append(Pair(*scans, ([row[:3] for row in pose[:3]],
                                        [row[3] for row in pose[:3]])))
     return pairs
+
+
+def draw_like(candidates, models, headings, num, draw):
+    """`num` of the candidates (i, j, distance), like each model (distance, yaw) in turn where
+    there are such."""
+    candidates = draw.sample(candidates, len(candidates))
+    if not models:
+        return candidates[:num]
+    drawn = []
+    for k in range(min(num, len(candidates))):
+        distance, yaw = models[k % len(models)]
+        like = next((pair for pair in candidates
+                     if abs(pair[2] - distance) <= LIKE_DISTANCE and
+                     turn_between(headings[pair[1]] - headings[pair[0]], yaw) <= LIKE_YAW),
+                    candidates[0])
+        candidates.remove(like)
+        drawn.append(like)
+    return drawn
 
 
 def bin_of(distance):
@@ -97,10 +129,19 @@ def bin_of(distance):
     return None
 
 
-def read_list(path, per_bin, seed, min_points, exclude):
+def models_of(pairs):
+    """Bin -> (distance, yaw) of its pairs."""
+    models = collections.defaultdict(list)
+    for pair in pairs:
+        distance = math.hypot(*pair.pose[1])
+        models[bin_of(distance)].append((distance, heading(pair.pose[0])))
+    return models
+
+
+def read_list(path, per_bin, seed, min_points, exclude, models):
     path = pathlib.Path(path)
     if path.is_dir():
-        return pairs_of_sequence(path, per_bin, seed)
+        return pairs_of_sequence(path, per_bin, seed, models)
     pairs = [Pair(str(path.parent / pair.source), str(path.parent / pair.target), pair.pose)
              for pair in read_pairs(str(path), exclude) if pair.pose is not None]
     pairs = [pair for pair in pairs
@@ -231,20 +272,26 @@ def main(args):
     if not options.real and not options.simulated:
         raise BadInput("there is neither --real nor --simulated")
     columns = []
+    real = []
     for path in options.real + options.simulated:
         is_real = len(columns) < len(options.real)
         pairs = read_list(path, options.pairs_per_bin, options.seed,
                           options.min_points if is_real else 0,
-                          options.exclude if is_real else [])
+                          options.exclude if is_real else [],
+                          {} if is_real else models_of(real))
         if not pairs:
             raise BadInput(f"{path}: there are no pairs to compare")
+        if is_real:
+            real += pairs
         name = ("real " if is_real else "simulated ") + os.path.basename(str(path).rstrip("/"))
         columns.append((name, summarize(pairs, name, options.program, flags)))
     sys.stdout.write(format_table(columns))
     num_real = len(options.real)
     if 0 < num_real < len(columns):
-        sys.stdout.write(format_ratios(pool(by_bin for _, by_bin in columns[:num_real]),
-                                       columns[num_real:]))
+        simulated = columns[num_real:]
+        if len(simulated) > 1:
+            simulated = simulated + [("all simulated", pool(by_bin for _, by_bin in simulated))]
+        sys.stdout.write(format_ratios(pool(by_bin for _, by_bin in columns[:num_real]), simulated))
 
 
 if __name__ == "__main__":

@@ -190,10 +190,12 @@ Drive MakeCityDrive(const DriveOptions& options, const Plan& plan) {
   drive.sensor = "hdl64e";
   std::vector<Vector2d> way =
       PlanDrive(*city, Route(plan), options.frame_spacing);
+  const Vector2d first_step = Along(way, 0);
   KeepFrames(options, &way);
   for (size_t i = 0; i < way.size(); ++i) {
+    const Vector2d along = way.size() > 1 ? Along(way, i) : first_step;
     drive.world_from_sensor.push_back(
-        city->WorldFromCar(way[i], Along(way, i)) *
+        city->WorldFromCar(way[i], along) *
         springs.At(static_cast<double>(i) * options.frame_spacing) *
         Up(Road::kSensorHeight));
   }
@@ -245,9 +247,10 @@ Drive MakeBuildingDrive(const DriveOptions& options, const Plan& plan) {
     for (size_t j = i - kWindow; j <= i + kWindow; ++j) sum += fine[j];
     way.emplace_back(sum / (2.0 * kWindow + 1.0));
   }
+  const Vector2d first_step = Along(way, 0);
   KeepFrames(options, &way);
   for (size_t i = 0; i < way.size(); ++i) {
-    const Vector2d along = Along(way, i);
+    const Vector2d along = way.size() > 1 ? Along(way, i) : first_step;
     const Rigid3 on_floor = {RotationZ(std::atan2(along.y(), along.x())),
                              Vector3d(way[i].x(), way[i].y(), 0.0)};
     drive.world_from_sensor.push_back(
@@ -371,7 +374,10 @@ Drive MakeDrive(const DriveOptions& options) {
 
 std::vector<InsReading> MeasureDrive(const Drive& drive,
                                      const DriveOptions& options) {
-  Random random(Mix(options.seed) ^ 13);
+  // Each drive has an INS of its own; the building's, 0, by the seed alone.
+  const auto number = static_cast<uint64_t>(PlanOf(options.name) - kPlans + 1) %
+                      std::size(kPlans);
+  Random random(Mix(options.seed ^ number << 32) ^ 13);
   Attitude bias;
   for (double* angle : {&bias.roll, &bias.pitch, &bias.yaw}) {
     *angle = options.ins_bias_sigma * Normal(random);

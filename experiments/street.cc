@@ -134,7 +134,8 @@ class StreetBuilder {
     if (Chance(0.5)) {
       AddBorder(DrawBorder(random_), s0, garden_, s0, setback, side);
     }
-    const auto num_plants = static_cast<int>(Draw(0.0, 0.4) * (s1 - s0));
+    const auto num_plants =
+        static_cast<int>(Draw(0.0, sides_.plants) * (s1 - s0));
     for (int i = 0; i < num_plants; ++i) {
       const double s = Draw(s0, s1);
       const double e = garden_ + Draw(0.3, 0.9) * depth;
@@ -165,16 +166,18 @@ class StreetBuilder {
   // From s to `end`, without a break.
   void AddBlock(double s, double end, int side) {
     const bool is_terrace = Chance(sides_.terrace);
-    const double usual_setback = kerb_ + Draw(2.0, is_terrace ? 6.0 : 7.5);
+    const double usual_setback =
+        kerb_ + Draw(2.0, (is_terrace ? 6.0 : 7.5) + sides_.deeper);
     while (end - s > 7.0) {
       const double wish = is_terrace ? Draw(7.0, 13.0) : Draw(8.0, 14.0);
       const double width = std::min(wish, end - s);
-      double gap = Draw(3.0, 9.0);
+      double gap = Draw(3.0, sides_.gap);
       if (is_terrace) gap = Chance(0.2) ? gap / 2.0 : 0.0;
-      if (Chance(0.13)) {
+      if (Chance(sides_.park)) {
         AddPark(s, s + width, side);
       } else {
-        const double setback = std::min(usual_setback + Draw(-0.5, 1.0), 12.0);
+        const double setback =
+            std::min(usual_setback + Draw(-0.5, 1.0), 12.0 + sides_.deeper);
         const double depth = Draw(8.0, 12.0);
         AddHouse(Facing(s + width / 2.0, setback, side),
                  width,

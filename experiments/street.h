@@ -25,6 +25,10 @@ struct StreetSides {
   double corner = 1.0;   // From a side street's kerb to the first house [m].
   double terrace = 0.3;  // Share of blocks that are without gaps.
   bool clear_mouths = false;  // No lamps and signs in side streets' mouths.
+  double deeper = 0.0;        // By how much front gardens may be more so [m].
+  double gap = 9.0;           // Largest between two houses [m].
+  double park = 0.13;         // Share of lots without a house.
+  double plants = 0.4;        // Most of a front garden, per metre of street.
 };
 
 // What stands on both sides of a street, without ground and side streets.

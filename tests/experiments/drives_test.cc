@@ -225,6 +225,37 @@ TEST(MeasureDriveTest, ErrorsAreABiasAndNoise) {
   EXPECT_NEAR(std::sqrt(sum_of_squares / n - bias * bias), 0.001, 0.0002);
 }
 
+TEST(MeasureDriveTest, EachDriveHasAnInsOfItsOwn) {
+  std::vector<double> biases;
+  for (const std::string& name : DriveNames()) {
+    DriveOptions options = Named(name);
+    options.num_frames = 2;
+    options.num_moving_cars = 0;
+    options.ins_sigma = 0.0;
+    const Drive drive = MakeDrive(options);
+    const double roll = MeasureDrive(drive, options)[0].attitude.roll;
+    options.ins_bias_sigma = 0.0;
+    biases.push_back(roll - MeasureDrive(drive, options)[0].attitude.roll);
+  }
+  std::sort(biases.begin(), biases.end());
+  for (size_t i = 1; i < biases.size(); ++i) {
+    EXPECT_GT(biases[i] - biases[i - 1], 1e-9);
+  }
+}
+
+TEST(MakeDriveTest, OneFrameLooksAheadAsTheFirstOfManyDoes) {
+  for (const char* name : {"07", "hd_b1"}) {
+    DriveOptions options = Named(name);
+    options.num_moving_cars = 0;
+    options.num_frames = 2;
+    const Rigid3 first = MakeDrive(options).world_from_sensor.front();
+    options.num_frames = 1;
+    const std::vector<Rigid3> one = MakeDrive(options).world_from_sensor;
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_TRUE(one[0].ToMatrix().isApprox(first.ToMatrix(), 1e-12));
+  }
+}
+
 TEST(FormatOxtsTest, ThirtyNumbersInTheOrderOfKitti) {
   InsReading reading;
   reading.attitude = {0.01, -0.02, 1.5};

@@ -9,6 +9,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -286,6 +287,18 @@ class CompareKittiTest(unittest.TestCase):
         rotation, translation = pair.pose
         self.assertEqual(rotation, [[1, 0, 0], [0, 1, 0], [0, 0, 1]])
         self.assertEqual(translation, [3, 0, 0])
+
+    def test_pairs_are_like_their_models_where_there_are_such(self):
+        # Six frames 1 m apart, the last one turned by 90 deg.
+        headings = [0.0] * 5 + [math.pi / 2.0]
+        candidates = [(i, j, float(j - i)) for i in range(6) for j in range(i + 1, 6)]
+        drawn = compare_kitti.draw_like(candidates, [(1.2, 0.1), (3.9, 1.5)], headings, 4,
+                                        random.Random(1))
+        self.assertEqual(len(set(drawn)), 4)
+        for pair in (drawn[0], drawn[2]):
+            self.assertEqual(pair[2], 1.0)
+            self.assertLess(pair[1], 5)
+        self.assertEqual(drawn[1], (1, 5, 4.0))  # The only one; then there is none.
 
 
 if __name__ == "__main__":
