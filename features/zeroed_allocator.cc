@@ -13,13 +13,17 @@
 namespace quatro {
 namespace {
 
+#if defined(__linux__)
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-#if defined(__linux__)
-bool IsHuge(std::size_t num_bytes) {
-  return num_bytes >= kHugePage / 2 &&
-         num_bytes <= std::numeric_limits<std::size_t>::max() - kHugePage;
+// In huge pages, the last of which is three quarters full.
+std::size_t BytesInHugePages(std::size_t num_bytes) {
+  constexpr std::size_t kLargest = std::numeric_limits<std::size_t>::max();
+  if (num_bytes > kLargest - kHugePage) return 0;
+  return (num_bytes + kHugePage / 4) / kHugePage * kHugePage;
 }
+
+// A size of whole huge pages is placed where one begins (Linux 6.7 on).
 std::size_t InWholePages(std::size_t num_bytes) {
   return (num_bytes + kHugePage - 1) / kHugePage * kHugePage;
 }
@@ -29,17 +33,15 @@ std::size_t InWholePages(std::size_t num_bytes) {
 
 void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
 #if defined(__linux__)
-  if (IsHuge(num_bytes)) {
-    // A size of whole huge pages is placed where one begins (Linux 6.7 on).
-    const std::size_t size = InWholePages(num_bytes);
+  if (const std::size_t huge = BytesInHugePages(num_bytes); huge > 0) {
     void* memory = mmap(nullptr,
-                        size,
+                        InWholePages(num_bytes),
                         PROT_READ | PROT_WRITE,
                         MAP_PRIVATE | MAP_ANONYMOUS,
                         -1,
                         0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
-    madvise(memory, size, MADV_HUGEPAGE);  // Advice: it may say no.
+    madvise(memory, huge, MADV_HUGEPAGE);  // Advice: it may say no.
     return memory;
   }
 #endif
@@ -57,7 +59,7 @@ void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
 
 void FreeZeroed(void* memory, std::size_t num_bytes) noexcept {
 #if defined(__linux__)
-  if (IsHuge(num_bytes)) {
+  if (BytesInHugePages(num_bytes) > 0) {
     munmap(memory, InWholePages(num_bytes));
     return;
   }

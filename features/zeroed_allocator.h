@@ -3,10 +3,10 @@
 // For large vectors of numbers that start at zero and are written once: fresh
 // memory from the system is zero already, and need not be written twice.
 //
-// From half a huge page (1 MiB) on it is asked for in such pages where the
-// system has them. The first write to a page is a fault, a dozen times as long
-// as the writing for pages of 4 KiB; and rows that lie far apart stay within
-// reach of the processor's table of pages.
+// What fills huge pages of 2 MiB, the last by three quarters, is asked for in
+// such pages where the system has them. The first write to a page is a fault,
+// which for one of 4 KiB takes longer than to write it; and rows that lie far
+// apart stay within reach of the processor's table of pages.
 
 #ifndef QUATRO_FEATURES_ZEROED_ALLOCATOR_H_
 #define QUATRO_FEATURES_ZEROED_ALLOCATOR_H_
