@@ -245,7 +245,7 @@ TEST_F(ScanGraphTest, GncKeepsTheRightPairsOfRealScansAndDropsTheWrong) {
               1.0 * kDegree)
         << name;
   }
-  EXPECT_GT(error_of(plain.world_from_pose), 1.0);
+  EXPECT_GT(error_of(plain.world_from_pose), 0.5);
 }
 
 TEST_F(ScanGraphTest, BadFlagsAreRefused) {
