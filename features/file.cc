@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <regex>
 #include <system_error>
 
 namespace quatro {
@@ -124,6 +126,20 @@ bool WriteFileAtomically(const std::string& path,
     return false;
   }
   return true;
+}
+
+void RemoveTemporaries(const std::string& folder) {
+  const std::regex temporary(R"(.+\.tmp\.[0-9]+\.[0-9]+)");
+  std::error_code status;
+  std::filesystem::directory_iterator entry(folder, status);
+  for (; !status && entry != std::filesystem::directory_iterator();
+       entry.increment(status)) {
+    if (!std::regex_match(entry->path().filename().string(), temporary)) {
+      continue;
+    }
+    std::error_code ignored;
+    std::filesystem::remove(entry->path(), ignored);
+  }
 }
 
 }  // namespace quatro

@@ -23,6 +23,10 @@ bool WriteFileAtomically(const std::string& path,
                          std::string_view bytes,
                          std::string* error);
 
+// Removes what WriteFileAtomically() had in `folder` when it was killed. Only
+// while nobody writes there.
+void RemoveTemporaries(const std::string& folder);
+
 }  // namespace quatro
 
 #endif  // QUATRO_FEATURES_FILE_H_

@@ -99,6 +99,9 @@ std::unique_ptr<RunFolder> RunFolder::Open(
                  : WhyNot(lock);
     return nullptr;
   }
+  for (const char* part : {"", "/views", "/tables"}) {
+    RemoveTemporaries(path + part);
+  }
   const std::string rows = path + "/rows.csv";
   folder->file_ = open(rows.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (folder->file_ < 0) {

@@ -71,6 +71,24 @@ TEST_F(RunFolderTest, KeepsWhatIsDone) {
   EXPECT_FALSE(folder->Has("c"));
 }
 
+TEST_F(RunFolderTest, WhatAKillLeftHalfWrittenIsRemoved) {
+  MakeTwoPairs();
+  std::filesystem::create_directories(Folder() + "/views");
+  const std::string left[] = {"/results.csv.tmp.123.0",
+                              "/views/71b9.json.tmp.123.17"};
+  const std::string kept[] = {"/views/71b9.json", "/rows.csv", "/a.tmp.txt"};
+  for (const std::string& name : {left[0], left[1], kept[0], kept[2]}) {
+    std::ofstream(Folder() + name) << "{";
+  }
+  ASSERT_TRUE(Open()) << error_;
+  for (const std::string& name : left) {
+    EXPECT_FALSE(std::filesystem::exists(Folder() + name)) << name;
+  }
+  for (const std::string& name : kept) {
+    EXPECT_TRUE(std::filesystem::exists(Folder() + name)) << name;
+  }
+}
+
 TEST_F(RunFolderTest, ResultsAreInTheOrderOfTheTasks) {
   MakeTwoPairs();
   const auto folder = Open();
