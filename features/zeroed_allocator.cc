@@ -18,8 +18,6 @@ constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
 // In huge pages, the last of which is three quarters full.
 std::size_t BytesInHugePages(std::size_t num_bytes) {
-  constexpr std::size_t kLargest = std::numeric_limits<std::size_t>::max();
-  if (num_bytes > kLargest - kHugePage) return 0;
   return (num_bytes + kHugePage / 4) / kHugePage * kHugePage;
 }
 
@@ -32,6 +30,9 @@ std::size_t InWholePages(std::size_t num_bytes) {
 }  // namespace
 
 void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
+  // So that what follows can be rounded up.
+  constexpr std::size_t kLargest = std::numeric_limits<std::size_t>::max() / 2;
+  if (num_bytes > kLargest) throw std::bad_alloc();
 #if defined(__linux__)
   if (const std::size_t huge = BytesInHugePages(num_bytes); huge > 0) {
     void* memory = mmap(nullptr,
@@ -51,8 +52,7 @@ void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
     return memory;
   }
   const std::size_t size = (num_bytes + alignment - 1) / alignment * alignment;
-  void* memory =
-      size < num_bytes ? nullptr : std::aligned_alloc(alignment, size);
+  void* memory = std::aligned_alloc(alignment, size);
   if (memory == nullptr) throw std::bad_alloc();
   return std::memset(memory, 0, size);
 }

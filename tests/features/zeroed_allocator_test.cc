@@ -49,7 +49,7 @@ TEST(ZeroedAllocator, IsAligned) {
 
 TEST(ZeroedAllocator, WhatDoesNotFitIsBadAlloc) {
   constexpr std::size_t kLargest = std::numeric_limits<std::size_t>::max();
-  for (const std::size_t num : {kLargest, kLargest / 8, kLargest / 16}) {
+  for (const std::size_t num : {kLargest, kLargest / 8, kLargest / 17}) {
     EXPECT_THROW(ZeroedAllocator<std::uint64_t>().allocate(num),
                  std::bad_alloc);
   }
