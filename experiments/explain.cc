@@ -216,22 +216,22 @@ std::vector<std::string> Advice(const Json& report) {
   const double num_mutual = NumberOr(At(counts, {"mutual_matches"}), 0.0);
   const bool has_clouds = counts.contains("mutual_matches");
   if (has_clouds && num_matches < kFewMatches) {
-    advice.push_back(
+    advice.emplace_back(
         "there are few matches: larger radii (--fpfh_radius of five voxels and "
         "more, --normal_radius of three), smaller voxels (--voxel_size), or "
         "--preset=auto, which looks at the density of the scans");
     if (num_mutual >= 10.0 * num_matches) {
-      advice.push_back(
+      advice.emplace_back(
           "the tuple test left less than a tenth of the matches: descriptors "
           "tell little here, or the scans share little");
     }
   }
   if (report["status"] == "insufficient") {
-    advice.push_back(
+    advice.emplace_back(
         "too few matches are consistent with each other: a larger "
         "--noise_bound, or matches with fewer outliers");
   } else if (report["status"] == "degenerate") {
-    advice.push_back(
+    advice.emplace_back(
         "the consistent matches do not hold the pose: they are at one place or "
         "on one line; larger radii or scans that share more would add others");
   }
@@ -241,11 +241,11 @@ std::vector<std::string> Advice(const Json& report) {
       !alarms.empty() &&
       alarms.back()["log10_false_alarms"].get<double>() > -3.0;
   if (is_accidental) {
-    advice.push_back(
+    advice.emplace_back(
         "no consensus stands out from chance: the scans share no place, or the "
         "matches are too poor; scans nearer to each other, or other radii");
   } else if (NumberOr(At(evidence, {"rival", "margin"}), 9.0) < 2.0) {
-    advice.push_back(
+    advice.emplace_back(
         "another pose has nearly as many matches: the place is symmetric or "
         "repeats itself, or the matches lie at one place; a rough guess of the "
         "pose can decide, evidence.rival has the other one");
@@ -253,18 +253,18 @@ std::vector<std::string> Advice(const Json& report) {
   const Json geometry = At(evidence, {"geometry"});
   if (geometry.is_object()) {
     if (NumberOr(geometry["structure_overlap"], 1.0) < 0.3) {
-      advice.push_back(
+      advice.emplace_back(
           "little of the structure is met: the scans share no place, or less "
           "than can be told; take scans that are nearer to each other");
     } else if (NumberOr(geometry["coarse_overlap"], 1.0) -
                    NumberOr(geometry["rival_overlap"], 0.0) <
                0.1) {
-      advice.push_back(
+      advice.emplace_back(
           "the scans fit as well elsewhere: a corridor or a symmetric place, "
           "where geometry cannot tell; use odometry");
     }
     if (NumberOr(geometry["contradicted_share"], 0.0) > 0.3) {
-      advice.push_back(
+      advice.emplace_back(
           "surfaces stand in free space of the other scan: the pose is wrong, "
           "or most of what was seen moved between the scans");
     }
@@ -273,7 +273,7 @@ std::vector<std::string> Advice(const Json& report) {
   if (ins_mode == "none" && At(report, {"notes", "polish"}).is_string() &&
       At(report, {"unpolished_target_from_source"}).is_null() &&
       !At(report, {"target_from_source"}).is_null()) {
-    advice.push_back(
+    advice.emplace_back(
         "roll and pitch were taken to be zero, since the matches do not hold "
         "them; on slopes give those of an INS (--ins_mode)");
   }

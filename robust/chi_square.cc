@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "robust/log_gamma.h"
+
 namespace quatro {
 
 // For whole n the tail is a finite sum of positive terms, with h = x / 2,
@@ -22,7 +24,7 @@ double ChiSquareTail(double x, int degrees_of_freedom) {
   double tail = is_odd ? std::erfc(std::sqrt(h)) : 0.0;
   for (int i = 0; i < degrees_of_freedom / 2; ++i) {
     const double k = is_odd ? i + 0.5 : i;
-    tail += std::exp(k * std::log(h) - h - std::lgamma(k + 1.0));
+    tail += std::exp(k * std::log(h) - h - LogGamma(k + 1.0));
   }
   return tail;
 }

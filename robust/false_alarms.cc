@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "features/random.h"
+#include "robust/log_gamma.h"
 #include "robust/tims.h"
 
 namespace quatro {
@@ -200,9 +201,8 @@ double Log10BinomialTail(Eigen::Index n, Eigen::Index k, double p) {
   const auto log_term = [&](Eigen::Index i) {
     const auto x = static_cast<double>(i);
     const auto m = static_cast<double>(n);
-    return std::lgamma(m + 1.0) - std::lgamma(x + 1.0) -
-           std::lgamma(m - x + 1.0) + x * std::log(p) +
-           (m - x) * std::log1p(-p);
+    return LogGamma(m + 1.0) - LogGamma(x + 1.0) - LogGamma(m - x + 1.0) +
+           x * std::log(p) + (m - x) * std::log1p(-p);
   };
   const double first = log_term(k);
   double sum = 1.0;

@@ -43,6 +43,13 @@ TEST(ChiSquareQuantile, IsThatOfThePrintedTable) {
   }
 }
 
+// std::lgamma does, and two threads must not at once.
+TEST(ChiSquareQuantile, WritesNoGlobal) {
+  signgam = 7;
+  ChiSquareQuantile(0.99, 6);
+  EXPECT_EQ(signgam, 7);
+}
+
 TEST(ChiSquareQuantile, OfTwoIsALogarithm) {
   for (const double p : {1e-6, 0.1, 0.5, 0.9, 1.0 - 1e-6, 1.0 - 1e-12}) {
     EXPECT_NEAR(ChiSquareQuantile(p, 2), -2.0 * std::log1p(-p), 1e-3 * p) << p;

@@ -70,6 +70,13 @@ TEST(Log10BinomialTail, OfLargeNumbersDoesNotUnderOrOverflow) {
               1e-2);
 }
 
+// std::lgamma does, and two threads must not at once.
+TEST(Log10BinomialTail, WritesNoGlobal) {
+  signgam = 7;
+  Log10BinomialTail(1000, 600, 0.5);
+  EXPECT_EQ(signgam, 7);
+}
+
 TEST(Log10BinomialTail, OfTheImpossibleAndTheCertain) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(Log10BinomialTail(10, 11, 0.5), -infinity);
