@@ -120,7 +120,10 @@ void AddFrontEnd(const Adder& add) {
     });
   });
   add("kd_tree/quatro", Needs::kClouds, [](const PairInput& pair, Counters*) {
-    ForBoth(pair, [](const CloudInput& cloud) { return KdTree(cloud.voxels); });
+    // It is built when it is first asked.
+    ForBoth(pair, [](const CloudInput& cloud) {
+      return KdTree(cloud.voxels).Nearest(cloud.voxels.col(0), 1);
+    });
   });
   add("neighborhoods/quatro",
       Needs::kClouds,
