@@ -53,6 +53,7 @@ class Cells {
   // little above the one before.
   class Walk {
    public:
+    // Over cells that outlive it.
     explicit Walk(const Cells& cells) : cells_(cells) {}
 
     // Puts the points of the 27 cells around it into *near, cell by cell.

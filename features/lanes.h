@@ -105,6 +105,7 @@ QUATRO_SIMD_INLINE std::int32_t MinOf(const typename Lanes<kBytes>::Int& x) {
 // instruction for. Results go to a place given, for the reason above.
 template <int kBytes>
 struct Instructions {
+  // A register.
   using Float = typename Lanes<kBytes>::Float;
 
   // The larger of each.
@@ -136,6 +137,7 @@ struct Instructions {
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
 template <>
 struct Instructions<32> {
+  // A register.
   using Float = typename Lanes<32>::Float;
 
   QUATRO_SIMD_AVX2 static void Max(const Float& a, const Float& b, Float* max) {
@@ -155,6 +157,7 @@ struct Instructions<32> {
 
 template <>
 struct Instructions<64> {
+  // A register.
   using Float = typename Lanes<64>::Float;
 
   QUATRO_SIMD_AVX512 static void Max(const Float& a,

@@ -26,6 +26,7 @@ class Neighborhoods {
     std::span<const std::int32_t> index;
     std::span<const float> squared_distance;  // [m^2]
 
+    // How many neighbours.
     std::size_t size() const { return index.size(); }
   };
 

@@ -41,6 +41,7 @@ struct OrientedPoint {
   float x, y, z;  // x is not a number of one that is nowhere.
   float nx, ny, nz;
 
+  // Whether it can be of a pair.
   bool HasNormal() const { return x == x; }
 };
 
@@ -53,6 +54,7 @@ struct PairBins {
 
   std::int32_t bits;
 
+  // The bin of part k of (1), in [0, 11), or one of those above.
   std::int32_t part(int k) const { return bits >> (4 * k) & 15; }
 };
 

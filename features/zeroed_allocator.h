@@ -58,6 +58,7 @@ struct ZeroedAllocator {
   bool operator==(const ZeroedAllocator&) const { return true; }
 };
 
+// Starts at T().
 template <typename T>
 using ZeroedVector = std::vector<T, ZeroedAllocator<T>>;
 
