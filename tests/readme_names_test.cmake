@@ -1,6 +1,7 @@
 # Fails if README.md or a page of docs/ names a test or a file that is not there,
 # or the method's page a function that is not in the header beside it.
 #   cmake -DROOT=. -P tests/readme_names_test.cmake
+get_filename_component(ROOT "${ROOT}" ABSOLUTE)
 file(GLOB_RECURSE sources "${ROOT}/tests/*_test.cc")
 set(all_tests "")
 foreach(source ${sources})

@@ -78,12 +78,12 @@ run() {
   wait "$pid"
 }
 
-#   is_slow <program> <input>...: whether one of them takes 5 s again
+#   is_slow <program> <input>...: whether one of them takes 5 s of a processor
 is_slow() {
   local input
   for input in "${@:2}"; do
     [[ -e $input ]] || continue
-    "$1" -timeout=5 -rss_limit_mb=512 -close_fd_mask=3 "$input" </dev/null || return 0
+    (ulimit -t 5; exec "$1" -rss_limit_mb=512 -close_fd_mask=3 "$input") </dev/null || return 0
     rm "$input"
   done
   return 1
