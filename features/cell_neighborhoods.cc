@@ -76,7 +76,7 @@ QUATRO_SIMD_INLINE std::size_t Choose(const std::vector<Block>& blocks,
       const Double dz = query[2] - load(block.z);
       const Double sum = dx * dx + dy * dy + dz * dz;
       reinterpret_cast<Double*>(d2)[piece] = sum;
-      typename Lanes<kBytes>::Long weight;
+      typename Lanes<kBytes>::Long weight{};
       for (int lane = 0; lane < kDoubles; ++lane) {
         weight[lane] = 1 << (piece * kDoubles + lane);
       }
