@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::string_view kGroupMark = " / ";
 constexpr std::string_view kQuotedMark = "\\textdagger";
+// Of a table as it is, and of one that is as wide as a column of the page.
+constexpr std::size_t kFewColumns = 6;
+constexpr std::size_t kMostColumns = 8;
 constexpr std::string_view kFileMark = "\\textdaggerdbl";
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -38,6 +41,23 @@ std::string Header(const std::string& name) {
   while (end < name.size() && IsLetter(name[end])) ++end;
   return std::string("$") + name[0] + "_{\\mathrm{" + name.substr(2, end - 2) +
          "}}$" + EscapeLatex(name.substr(end));
+}
+
+// In two lines, broken at the blank closest to the middle that does not follow
+// a number.
+std::string Stacked(const std::string& name) {
+  std::size_t best = std::string::npos;
+  const auto off = [&](std::size_t at) {
+    return 2 * at > name.size() ? 2 * at - name.size() : name.size() - 2 * at;
+  };
+  for (std::size_t at = name.find(' '); at != std::string::npos;
+       at = name.find(' ', at + 1)) {
+    if (at > 0 && IsDigit(name[at - 1])) continue;
+    if (best == std::string::npos || off(at) < off(best)) best = at;
+  }
+  if (best == std::string::npos) return Header(name);
+  return "\\shortstack[r]{" + Header(name.substr(0, best)) + "\\\\" +
+         EscapeLatex(name.substr(best + 1)) + "}";
 }
 
 std::string Cell(const std::string& cell) {
@@ -136,9 +156,11 @@ std::string FormatLatex(const Table& table, const LatexOptions& options) {
   const auto at = origin - columns.begin();
   if (has_origin) columns.erase(origin);
 
+  const bool is_fitted = columns.size() > kFewColumns;
   std::vector<std::string> names;
   for (const std::string& column : columns) {
-    names.push_back(Header(NameInGroup(column)));
+    const std::string name = NameInGroup(column);
+    names.push_back(is_fitted ? Stacked(name) : Header(name));
   }
   std::string body;
   bool has_quoted = false;
@@ -158,15 +180,24 @@ std::string FormatLatex(const Table& table, const LatexOptions& options) {
     body += Joined(row);
   }
 
-  std::string latex = "\\begin{table}\n\\centering\n";
+  const std::string place = columns.size() > kMostColumns ? "table*" : "table";
+  std::string latex = "\\begin{" + place + "}\n\\centering\n";
   if (!options.caption.empty()) {
     latex += "\\caption{" + EscapeLatex(options.caption) + "}\n";
   }
   if (!options.label.empty()) latex += "\\label{" + options.label + "}\n";
+  if (!options.caption.empty()) latex += "\\smallskip\n";
+  if (is_fitted) {
+    latex +=
+        "\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"
+        "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}"
+        "{!}{%\n";
+  }
   latex += "\\begin{tabular}{l" +
            std::string(columns.empty() ? 0 : columns.size() - 1, 'r') +
            "}\n\\toprule\n" + GroupLines(columns) + Joined(names) +
-           "\\midrule\n" + body + "\\bottomrule\n\\end{tabular}\n";
+           "\\midrule\n" + body + "\\bottomrule\n\\end{tabular}" +
+           (is_fitted ? "}\n" : "\n");
   if (has_quoted) {
     latex += "\\par\\smallskip\\footnotesize " + std::string(kQuotedMark) +
              "\\," + EscapeLatex(options.quoted_note) + "\n";
@@ -175,7 +206,7 @@ std::string FormatLatex(const Table& table, const LatexOptions& options) {
     latex += "\\par\\smallskip\\footnotesize " + std::string(kFileMark) +
              "\\,From poses in a file, of another program.\n";
   }
-  return latex + "\\end{table}\n";
+  return latex + "\\end{" + place + "}\n";
 }
 
 }  // namespace quatro

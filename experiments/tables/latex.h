@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 // A table for a paper, with the packages booktabs and textcomp. Groups of
 // columns get a rule of their own; the column "origin" becomes a mark after the
-// first cell and a line under the table that says what it means.
+// first cell and a line under the table that says what it means. More than
+// six columns have headers of two lines and are made smaller to fit, with the
+// package graphicx; more than eight are over both columns of a page.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_LATEX_H_
 #define QUATRO_EXPERIMENTS_TABLES_LATEX_H_

@@ -5,12 +5,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "experiments/number_text.h"
 #include "experiments/odometry/table_two.h"
+#include "features/file.h"
 
 namespace quatro {
 namespace {
@@ -46,6 +52,7 @@ TEST(FormatLatex, IsATableByHand) {
 \centering
 \caption{Errors \& more}
 \label{tab:x}
+\smallskip
 \begin{tabular}{lrrrr}
 \toprule
  & \multicolumn{2}{c}{0--2 m} & \multicolumn{1}{c}{4--6 m} &  \\
@@ -70,6 +77,34 @@ TEST(FormatLatex, WithoutGroupsQuotesOrLabelHasNoneOfTheirLines) {
   EXPECT_THAT(FormatLatex({{}, {}}, {}), HasSubstr("\\begin{tabular}{l}"));
 }
 
+TEST(FormatLatex, ManyColumnsAreMadeToFit) {
+  Table table{{"method",
+               "registered",
+               "wrong registered",
+               "only method right",
+               "all / 2 m 10 deg",
+               "all / t_avg m",
+               "g",
+               "h",
+               "i"},
+              {std::vector<std::string>(9, "1")}};
+  const std::string latex = FormatLatex(table, {});
+  EXPECT_THAT(
+      latex,
+      HasSubstr("method & registered & \\shortstack[r]{wrong\\\\registered} & "
+                "\\shortstack[r]{only method\\\\right} & "
+                "\\shortstack[r]{2 m\\\\10 deg} & "
+                "\\shortstack[r]{$t_{\\mathrm{avg}}$\\\\m} & g & h & i"));
+  EXPECT_THAT(latex, HasSubstr("\\end{tabular}}\n\\end{table*}\n"));
+  table.columns.resize(8);
+  table.rows[0].resize(8);
+  EXPECT_THAT(FormatLatex(table, {}),
+              HasSubstr("\\end{tabular}}\n\\end{table}\n"));
+  table.columns.resize(6);
+  table.rows[0].resize(6);
+  EXPECT_THAT(FormatLatex(table, {}), Not(HasSubstr("resizebox")));
+}
+
 TEST(FormatLatex, NothingQuotedHasNoNote) {
   const Table table{{"a", "origin"}, {{"1", "measured"}}};
   EXPECT_THAT(FormatLatex(table, {}), Not(HasSubstr("KITTI")));
@@ -89,7 +124,7 @@ TEST(FormatTableTwoLatex, IsThePapersTable) {
   const std::string latex = FormatTableTwoLatex(entries);
   EXPECT_THAT(latex, HasSubstr("\\begin{tabular}{lrrrrrr}"));
   EXPECT_THAT(latex, HasSubstr("\\multicolumn{2}{c}{interval 3}"));
-  EXPECT_THAT(latex, HasSubstr("$t_{\\mathrm{rel}}$ \\%"));
+  EXPECT_THAT(latex, HasSubstr("$t_{\\mathrm{rel}}$\\\\\\%"));
   EXPECT_THAT(latex,
               HasSubstr("LO-Net\\,\\textdagger & 1.47 & 0.72 & -- & -- & -- & "
                         "-- \\\\"));
@@ -104,6 +139,52 @@ TEST(FormatTableTwoLatex, IsThePapersTable) {
     EXPECT_EQ(std::count(line.begin(), line.end(), '&'), 6) << line;
   }
   EXPECT_EQ(num_rows, 1 + 14 + 1);
+}
+
+// Narrow, wide, quoted and empty, each in both classes of a page.
+TEST(FormatLatex, PdflatexTakesItWithoutAnOverfullBox) {
+  if (std::system("pdflatex --version >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "needs pdflatex with booktabs (texlive-latex-extra)";
+  }
+  const Table narrow{{"method", "origin", "a & b / t_avg m"},
+                     {{"ours_1", "quoted", "5 %"}, {"theirs", "file", ""}}};
+  Table wide{{"method"}, {{"quatro_ins"}}};
+  for (const char* const column : {"pairs",
+                                   "wrong registered",
+                                   "success % / 0.6 m 5 deg",
+                                   "r median deg"}) {
+    for (int i = 0; i < 5; ++i) {
+      wide.columns.emplace_back(column);
+      wide.rows[0].emplace_back("100.00");
+    }
+  }
+  const auto folder = std::filesystem::path(::testing::TempDir()) /
+                      ("latex_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  for (const char* const layout : {"onecolumn", "twocolumn"}) {
+    std::string text = "\\documentclass[" + std::string(layout) +
+                       "]{article}\n\\usepackage{booktabs,textcomp,graphicx}\n"
+                       "\\begin{document}\n";
+    for (const std::string& table :
+         {FormatLatex(narrow, {.caption = "50 % ~ <x>", .label = "tab:a"}),
+          FormatLatex(wide, {.caption = "Wide"}),
+          FormatTableTwoLatex(QuotedTableTwo())}) {
+      text += table;
+    }
+    text += "\\end{document}\n";
+    std::string error;
+    ASSERT_TRUE(WriteFileAtomically((folder / "t.tex").string(), text, &error))
+        << error;
+    const std::string command =
+        "cd '" + folder.string() +
+        "' && pdflatex -interaction=nonstopmode -halt-on-error t.tex >log.txt";
+    EXPECT_EQ(std::system(command.c_str()), 0) << layout;
+    std::ifstream file(folder / "log.txt");
+    const std::string log{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_THAT(log, HasSubstr("Output written")) << layout;
+    EXPECT_THAT(log, Not(HasSubstr("Overfull"))) << layout;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -57,6 +57,21 @@ class ReportPaperTest(unittest.TestCase):
         self.assertEqual(page.count("12.34"), 1)
         self.assertNotIn(" low", page)
 
+    def test_reasons_are_counted(self):
+        self.write("table_one/tables/table_one.csv", TABLE_ONE.format(quatro="50.00"))
+        self.assertNotIn("Why:", self.run_script().stdout)
+        self.write("table_one/results.csv",
+                   "pair,method,translation_error_m,rotation_error_deg,consistent\n"
+                   "a,quatro,0.1,1,20\na,teaser,3,1,20\n"
+                   "b,quatro,0.1,11,10\nb,teaser,0.1,9,10\n"
+                   "c,quatro,,,0\nc,teaser,,,0\n"
+                   "d,quatro,1,1,14\nd,teaser,1,1,14\n")
+        page = self.run_script().stdout
+        self.assertIn("12 matches of a pair are consistent, in the median. Quatro misses 2 of 4",
+                      page)
+        self.assertIn("teaser is right on 1 of the pairs that Quatro misses, and misses 1 that", page)
+        self.assertNotIn("fgr is right", page)
+
     def test_drift_at_five_may_be_better(self):
         for five, expected in (("0.10", "holds"), ("0.75", "holds"), ("0.76", "does not hold")):
             self.write("table_two/table_two.csv", TABLE_TWO.format(five=five))
