@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Draws the figures of a run from the results.csv in its folder, as PDF and PNG.
+"""Draws the figures of a run from the results.csv in its folder, or the tilts.csv
+of --protocol=tilt, as PDF and PNG.
 
     experiments/with_python.sh matplotlib experiments/draw_experiment.py RUN [--output=FOLDER]
-        [--figures=success,distance,yaw,tilt,timing,recall]
+        [--figures=success,bins,distance,yaw,tilt,timing,recall]
 
     success   pairs within 2 m and 10 deg by set, with Wilson's 95 % intervals
+    bins      the same over the bins of each set that has several
     distance  errors of all answers by bin of distance ("8-10 m"): boxes from quartile to
               quartile, whiskers from the 5th to the 95th percentile
     yaw       median error of all answers over the added yaw (bins "yaw 90 deg"), quartiles shaded
@@ -74,33 +76,53 @@ def parse_stages(text, where):
     return stages
 
 
-def read_results(path):
+def parse_result(row, where):
+    result = {name: row[name] for name in TEXT}
+    for name in NUMBERS:
+        result[name] = parse_number(row[name], f"{where}, column {name}")
+    if (row["rotation_error_deg"] == "") != (row["translation_error_m"] == ""):
+        raise BadInput(f"{where} has one error of two")
+    result["stages"] = parse_stages(row["stages_ms"], f"{where}, column stages_ms")
+    return result
+
+
+def parse_tilt(row, where):
+    """What a result would know of the pair; no method was run."""
+    return {**dict.fromkeys(TEXT, ""), **dict.fromkeys(NUMBERS), "stages": {}, "set": row["set"],
+            "pair": row["source"] + "-" + row["target"],
+            "true_yaw_deg": parse_number(row["yaw_deg"], f"{where}, column yaw_deg"),
+            "true_tilt_deg": parse_number(row["rollpitch_deg"], f"{where}, column rollpitch_deg")}
+
+
+def read_rows(path, columns, parse):
     try:
         with open(path, newline="", encoding="utf-8") as file:
             reader = csv.DictReader(file)
             names = reader.fieldnames or []
-            for name in (*TEXT, *NUMBERS):
+            for name in columns:
                 if name not in names:
                     raise BadInput(f"{path}: there is no column {name}")
-            results = []
+            rows = []
             for row in reader:
+                where = f"{path}: line {reader.line_num}"
                 if None in row or None in row.values():
-                    raise BadInput(f"{path}: line {reader.line_num} must have {len(names)} columns")
-                where = f"{path}: line {reader.line_num}, column"
-                result = {name: row[name] for name in TEXT}
-                for name in NUMBERS:
-                    result[name] = parse_number(row[name], f"{where} {name}")
-                if (row["rotation_error_deg"] == "") != (row["translation_error_m"] == ""):
-                    raise BadInput(f"{path}: line {reader.line_num} has one error of two")
-                result["stages"] = parse_stages(row["stages_ms"], f"{where} stages_ms")
-                results.append(result)
+                    raise BadInput(f"{where} must have {len(names)} columns")
+                rows.append(parse(row, where))
     except OSError as error:
         raise BadInput(f"{path}: {error.strerror}") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise BadInput(f"{path}: {error}") from None
-    if not results:
+    if not rows:
         raise BadInput(f"{path}: has no results")
-    return results
+    return rows
+
+
+def read_results(folder):
+    path = os.path.join(folder, "results.csv")
+    tilts = os.path.join(folder, "tilts.csv")
+    if os.path.exists(tilts) and not os.path.exists(path):
+        return read_rows(tilts, ("set", "source", "target", "yaw_deg", "rollpitch_deg"), parse_tilt)
+    return read_rows(path, (*TEXT, *NUMBERS), parse_result)
 
 
 def names_of(results, key):
@@ -205,6 +227,42 @@ def draw_success(results):
     return finish()
 
 
+def draw_bins(results):
+    results = posed(results)
+    sets = [name for name in names_of(results, "set")
+            if len(names_of([r for r in results if r["set"] == name], "bin")) > 1]
+    if not sets:
+        return None
+    methods = names_of(results, "method")
+    panels, finish = make_panels(len(sets), len(methods), 2.6, 7.2, are_stacked=len(sets) > 1)
+    for axes, name in zip(panels, sets):
+        bins = names_of([r for r in results if r["set"] == name], "bin")
+        for m, method in enumerate(methods):
+            rates, lows, highs, places = [], [], [], []
+            for b, bin_name in enumerate(bins):
+                own = [r for r in results
+                       if (r["set"], r["bin"], r["method"]) == (name, bin_name, method)]
+                if not own:
+                    continue
+                num = sum(map(succeeds, own))
+                low, high = wilson(num, len(own))
+                rate = num / len(own)
+                rates.append(100 * rate)
+                lows.append(100 * (rate - low))
+                highs.append(100 * (high - rate))
+                # Side by side, or methods that tie would hide each other.
+                places.append(b + 0.4 * ((m + 0.5) / len(methods) - 0.5))
+            axes.errorbar(places, rates, (lows, highs), marker="o", markersize=3, elinewidth=0.8,
+                          label=method, **style_of(methods, method))
+        axes.set_xticks(range(len(bins)), bins)
+        axes.set_xlim(-0.5, len(bins) - 0.5)
+        axes.set_ylim(-3, 105)
+        axes.set_ylabel("success [%]")
+        axes.set_title(name, fontsize="medium", loc="left")
+        axes.grid(axis="y", color="0.9")
+    return finish()
+
+
 def draw_distance(results):
     answers = [r for r in posed(results) if r["translation_error_m"] is not None
                and distance_of(r["bin"])]
@@ -289,8 +347,7 @@ def draw_tilt(results):
         axes.set_xlim(0, end)
         median = quantile(values, 0.5)
         axes.axvline(median, color="black", linewidth=1, linestyle="--")
-        axes.text(0.97, 0.93, f"median {median:.2f} deg", ha="right", va="top",
-                  transform=axes.transAxes, fontsize="small")
+        axes.set_title(f"median {median:.2f} deg", loc="right", fontsize="small")
     panels[0].set_ylabel("pairs [%]")
     panels[1].set_xticks(range(0, 181, 30))
     return figure
@@ -360,14 +417,14 @@ def draw_recall(results):
     return finish()
 
 
-FIGURES = {"success": draw_success, "distance": draw_distance, "yaw": draw_yaw, "tilt": draw_tilt,
-           "timing": draw_timing, "recall": draw_recall}
+FIGURES = {"success": draw_success, "bins": draw_bins, "distance": draw_distance,
+           "yaw": draw_yaw, "tilt": draw_tilt, "timing": draw_timing, "recall": draw_recall}
 
 
 def main(args):
     parser = Parser(prog="draw_experiment.py", description=__doc__, allow_abbrev=False,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", metavar="RUN", help="folder with results.csv")
+    parser.add_argument("run", metavar="RUN", help="folder with results.csv or tilts.csv")
     parser.add_argument("--output", metavar="FOLDER", help="for the figures (default: RUN/figures)")
     parser.add_argument("--figures", default=",".join(FIGURES), metavar="A,B",
                         help="which ones (default: all)")
@@ -376,7 +433,7 @@ def main(args):
     for name in chosen:
         if name not in FIGURES:
             raise BadInput(f"--figures: there is no {name!r}; there are {','.join(FIGURES)}")
-    results = read_results(os.path.join(options.run, "results.csv"))
+    results = read_results(options.run)
     folder = options.output or os.path.join(options.run, "figures")
     try:
         os.makedirs(folder, exist_ok=True)

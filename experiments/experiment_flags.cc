@@ -6,13 +6,16 @@
 #include "experiments/datasets/open_dataset.h"
 #include "experiments/ins_flags.h"
 #include "experiments/number_text.h"
+#include "experiments/protocols/problem_families.h"
+#include "experiments/runner/run_problem.h"
 #include "robust/presets.h"
 
 DEFINE_string(
     protocol,
     "",
     "On scans: loop, interval, yaw, timing, pairs, odometry or tilt "
-    "(of loops, no method). On matched points: tims (yaw from "
+    "(of loops, no method). On matched points: synthetic (families of "
+    "problems by any methods), tims (yaw from "
     "differences, 95-99 % outliers), "
     "degeneracy (1-5 true matches), quasi_inliers (right in xy, "
     "wrong in z), sizes (a thousand to a million matches), slopes "
@@ -20,9 +23,11 @@ DEFINE_string(
     "draw_surrogates.py and draw_gnc_film.py). Required");
 DEFINE_string(output,
               "",
-              "On scans: folder of the run, new or to go on with, required. "
-              "On matched points: CSV file for the table as well");
-DEFINE_string(methods, "quatro", "On scans: a,b,c; --list_methods names them");
+              "On scans and of synthetic: folder of the run, new or to go on "
+              "with, required. Otherwise CSV file for the table as well");
+DEFINE_string(methods,
+              "quatro",
+              "On scans and of synthetic: a,b,c; --list_methods names them");
 DEFINE_bool(list_methods, false, "Print the methods and end");
 DEFINE_string(data, "", "Folder of a drive, or of a data set with drives");
 DEFINE_string(sequences, "", "Drives of the data set, 00,02; empty: all");
@@ -56,9 +61,16 @@ DEFINE_int32(max_pairs_per_source,
              "Of loop and timing: pairs with one frame as the source; 0: all");
 DEFINE_int32(max_frames, 0, "Of odometry: of each drive; 0: all there are");
 DEFINE_uint64(seed, 1, "Of the choice of pairs and of the methods");
-DEFINE_string(shard, "1/1", "On scans: do part k of n alone, k/n");
-DEFINE_bool(merge, false, "On scans: put the parts in --output together");
+DEFINE_string(shard,
+              "1/1",
+              "On scans and of synthetic: do part k of n alone, k/n");
+DEFINE_bool(merge,
+            false,
+            "On scans and of synthetic: put the parts in --output together");
 DEFINE_double(outliers, 0.9, "Of film: share of wrong differences");
+DEFINE_string(families,
+              "outliers,noise,matches,degeneracy,quasi_inliers",
+              "Of synthetic: a,b,c");
 DEFINE_int32(seeds, 20, "On matched points: problems of each kind");
 DEFINE_int64(max_matches, 1000000, "Of sizes: the largest problem");
 DEFINE_int32(
@@ -133,7 +145,8 @@ std::optional<RunMethods> MethodsOfFlags(const std::vector<OwnMethod>& own,
         "--ins_mode=" + FLAGS_ins_mode + ", must be relative, leveled or fused";
     return std::nullopt;
   }
-  if (!methods.IsValid(error)) {
+  if (!(FLAGS_protocol == "synthetic" ? CanRunProblems(methods, error)
+                                      : methods.IsValid(error))) {
     *error = "--methods: " + *error;
     return std::nullopt;
   }
@@ -145,10 +158,29 @@ std::optional<std::vector<SequenceData>> DrivesOfFlags(std::string* error) {
                      error);
 }
 
+namespace {
+
+// Noise goes by the noise bound of the methods.
+std::optional<PairSelection> ProblemsOfFlags(std::string* error) {
+  const auto registration = OptionsOfFlags(error);
+  if (!registration) return std::nullopt;
+  FamilyOptions families;
+  families.families = SplitNames(FLAGS_families);
+  families.num_problems = FLAGS_seeds;
+  families.noise_bound = registration->quatro.noise_bound;
+  families.seed = FLAGS_seed;
+  if (families.IsValid(error)) return SelectProblems(families, error);
+  *error = "--families: " + *error;
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<PairSelection> TasksOfFlags(std::string* error) {
   if (FLAGS_protocol == "pairs") {
     return OpenPairList(FLAGS_pairs, FLAGS_data, error);
   }
+  if (FLAGS_protocol == "synthetic") return ProblemsOfFlags(error);
   ProtocolOptions protocol;
   protocol.name = FLAGS_protocol;
   const auto bins = ParseBins(FLAGS_bins, error);
@@ -187,6 +219,8 @@ Manifest ManifestOfFlags() {
                           {"pairs", FLAGS_pairs},
                           {"bins", FLAGS_bins},
                           {"intervals", FLAGS_intervals},
+                          {"families", FLAGS_families},
+                          {"seeds", std::to_string(FLAGS_seeds)},
                           {"max_pairs", std::to_string(FLAGS_max_pairs)},
                           {"shard", FLAGS_shard},
                           {"report_views", std::to_string(FLAGS_report_views)},

@@ -35,12 +35,15 @@ constexpr char kUsage[] =
     "\n"
     "  quatro_experiment --protocol=loop --data=kitti --sequences=00,05\n"
     "      --methods=quatro,teaser,ransac10k --output=loops\n"
+    "  quatro_experiment --protocol=synthetic --methods=quatro,fgr "
+    "--output=points\n"
     "  quatro_experiment --protocol=degeneracy\n"
     "\n"
-    "On scans, the folder gets results.csv, a line for each pair and method,\n"
-    "tables, and report.html, a page to look at. A run that was stopped, by\n"
-    "Ctrl-C or otherwise, is gone on with by the same command. Progress goes\n"
-    "to standard error.\n"
+    "On scans and of synthetic, the folder gets results.csv, a line for each\n"
+    "pair and method, tables, and report.html, a page to look at. A run that\n"
+    "was stopped, by Ctrl-C or otherwise, is gone on with by the same "
+    "command.\n"
+    "Progress goes to standard error.\n"
     "Exits with 0; 2 if a flag or a file is wrong; 3 if it was stopped.";
 
 std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
@@ -83,7 +86,7 @@ int LeaveTables() {
   return quatro::kExitDone;
 }
 
-int RunOnScans(const std::vector<quatro::OwnMethod>& own) {
+int RunPairs(const std::vector<quatro::OwnMethod>& own) {
   std::string error;
   if (FLAGS_output.empty())
     return Fail("--output is empty, must name a folder");
@@ -221,8 +224,8 @@ int RunTiltProtocol() {
   return quatro::kExitDone;
 }
 
-bool IsOnScans() {
-  if (FLAGS_protocol == "pairs") return true;
+bool IsOfPairs() {
+  if (FLAGS_protocol == "pairs" || FLAGS_protocol == "synthetic") return true;
   for (const std::string& name : quatro::DriveProtocolNames()) {
     if (FLAGS_protocol == name) return true;
   }
@@ -246,7 +249,7 @@ int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
   }
   if (FLAGS_report_views < 0) return Fail("--report_views must be >= 0");
   if (FLAGS_threads < 0) return Fail("--threads must be >= 0");
-  if (IsOnScans()) return RunOnScans(own);
+  if (IsOfPairs()) return RunPairs(own);
   if (FLAGS_protocol == "odometry") return RunOdometryProtocol();
   if (FLAGS_protocol == "tilt") return RunTiltProtocol();
   if (!FLAGS_output.empty() && !quatro::CanWrite(FLAGS_output, &error)) {
@@ -254,10 +257,10 @@ int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
   }
   const auto table = RunSynthetic(FLAGS_protocol);
   if (!table) {
-    return Fail(
-        "--protocol=" + FLAGS_protocol +
-        ", must be loop, interval, yaw, timing, pairs, odometry, tilt, tims, "
-        "degeneracy, quasi_inliers, sizes, slopes, surrogates or film");
+    return Fail("--protocol=" + FLAGS_protocol +
+                ", must be loop, interval, yaw, timing, pairs, odometry, tilt, "
+                "synthetic, tims, degeneracy, quasi_inliers, sizes, slopes, "
+                "surrogates or film");
   }
   std::fputs(quatro::FormatTable(*table).c_str(), stdout);
   if (!FLAGS_output.empty() &&

@@ -17,7 +17,7 @@ import os
 import statistics
 import sys
 
-RUNS = ("table_one", "table_one_paper", "table_two", "table_three", "yaw", "timing")
+RUNS = ("table_one", "table_one_paper", "table_two", "table_three", "yaw", "timing", "synthetic")
 TITLES = {
     "table_one": "Success of loop pairs, 9-12 m [%] (Table I)",
     "table_one_paper": "The same with the paper's parameters, --preset=paper",
@@ -25,14 +25,18 @@ TITLES = {
     "table_three": "Errors by distance on 06 (Table III)",
     "yaw": "Errors against an added yaw",
     "timing": "Median times [ms]",
+    "synthetic": "Matched points with known answers",
 }
 TABLES = {"table_one": "tables/table_one.csv", "table_one_paper": "tables/table_one.csv",
           "table_two": "table_two.csv",
           "table_three": "tables/table_three.csv", "yaw": "tables/by_bin.csv",
-          "timing": "tables/timing.csv"}
+          "timing": "tables/timing.csv", "synthetic": "tables/by_bin.csv"}
 FIGURES = {"table_one": ("success", "recall"), "table_one_paper": ("success", "recall"),
            "table_three": ("distance",), "yaw": ("yaw",),
-           "timing": ("timing",)}
+           "timing": ("timing",), "synthetic": ("bins",)}
+# Figures without a table, under the folder of reproduce.sh.
+MORE_FIGURES = {"Relative roll-pitch and yaw of loops up to 12 m": "tilt/figures/tilt.png",
+                "Surrogates of truncated least squares": "surrogates.png"}
 
 
 class BadInput(Exception):
@@ -206,6 +210,9 @@ def main(arguments, out):
             write_run(name, os.path.join(root, name), out)
         else:
             print(f"\n## {TITLES[name]}\n\nNot run.", file=out)
+    for title, path in MORE_FIGURES.items():
+        if os.path.exists(os.path.join(root, path)):
+            print(f"\n## {title}\n\n![{title}]({path})", file=out)
 
 
 if __name__ == "__main__":

@@ -54,12 +54,12 @@ drives=(00 02 05 06 07 08)
 if [[ $quick ]]; then
   # Scans are 4 m apart, but for odometry.
   spacing=4 gap=25 per_source=0 pairs_one=8 pairs_three=6 pairs_yaw=3 pairs_timing=4 frames=106
-  frames_inside=300
+  frames_inside=300 problems=10
   intervals=(1 5)
   odometries=quatro,quatro_c2f,gicp,suma,aloam
 else
   spacing=1 gap=100 per_source=3 pairs_one=200 pairs_three=200 pairs_yaw=50 pairs_timing=50 frames=600
-  frames_inside=0
+  frames_inside=0 problems=100
   intervals=(1 3 5)
   odometries=icp,gicp,vgicp,fgr,teaser,quatro,suma,aloam,quatro_c2f
 fi
@@ -131,11 +131,17 @@ run timing --protocol=timing --data="$drive_data" --sequences=00 --preset="$pres
 draw timing timing
 run tilt --protocol=tilt --data="$drive_data" --sequences=00,02,05,06,07,08 --min_frame_gap="$gap" \
     --bins=0-12
-for protocol in tims degeneracy quasi_inliers; do
+draw tilt tilt
+run synthetic --protocol=synthetic --preset="$preset" --seeds="$problems" \
+    --methods=quatro,teaser,fgr,ransac1k,ransac10k
+draw synthetic bins
+for protocol in tims degeneracy quasi_inliers surrogates; do
   echo "running $protocol" >&2
   build/bin/quatro_experiment --protocol="$protocol" --output="$output/$protocol.csv" \
       >"$output/$protocol.txt"
 done
+experiments/with_python.sh matplotlib experiments/draw_surrogates.py "$output/surrogates.csv" \
+    "$output/surrogates.png"
 
 python3 experiments/report_paper.py "$output" >"$output/report.md.part"
 mv "$output/report.md.part" "$output/report.md"

@@ -58,6 +58,7 @@ bool TakeManifest(const std::string& folder,
   manifest.flags["tasks"] = ChecksumOf(experiment.tasks);
   std::vector<std::string> scans;
   for (const PairTask& task : experiment.tasks) {
+    if (task.make_problem) continue;
     scans.push_back(task.source);
     scans.push_back(task.target);
   }

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One registration of an experiment, before anything is read: which two scans,
-// what is true of them, and which part of a table they count in.
+// One registration of an experiment, before anything is read: which two scans
+// or which matched points, what is true of them, and which part of a table they
+// count in.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_PAIR_TASK_H_
 #define QUATRO_EXPERIMENTS_RUNNER_PAIR_TASK_H_
 
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "experiments/synthetic.h"
 #include "solvers/gravity.h"
 #include "solvers/rigid3.h"
 
@@ -33,6 +36,10 @@ struct PairTask {
   // other.
   std::string source;
   std::string target;
+
+  // In place of the files: draws matched points, the same ones each time. Set
+  // for all tasks of a run or for none.
+  std::function<MatchedProblem()> make_problem;
 
   // The source is turned about its z axis by so much after it is read [rad].
   // Truth and INS below are of the turned scan.

@@ -14,22 +14,6 @@
 namespace quatro {
 namespace {
 
-// What is known of the pair before any method.
-PairResult BlankResult(const PairTask& task) {
-  PairResult result;
-  result.pair = task.name;
-  result.set = task.set;
-  result.bin = task.bin;
-  if (task.true_target_from_source) {
-    const Rigid3& truth = *task.true_target_from_source;
-    const double yaw = Yaw(truth.rotation);
-    result.distance = truth.translation.norm();
-    result.true_yaw = yaw;
-    result.true_tilt = AngleBetween(RotationZ(yaw), truth.rotation);
-  }
-  return result;
-}
-
 TaskOutcome AllUnreadable(const PairResult& blank,
                           const std::vector<std::string>& names,
                           const std::string& note) {
@@ -61,6 +45,21 @@ std::string ViewOf(const PairTask& task,
 }
 
 }  // namespace
+
+PairResult BlankResult(const PairTask& task) {
+  PairResult result;
+  result.pair = task.name;
+  result.set = task.set;
+  result.bin = task.bin;
+  if (task.true_target_from_source) {
+    const Rigid3& truth = *task.true_target_from_source;
+    const double yaw = Yaw(truth.rotation);
+    result.distance = truth.translation.norm();
+    result.true_yaw = yaw;
+    result.true_tilt = AngleBetween(RotationZ(yaw), truth.rotation);
+  }
+  return result;
+}
 
 void FillResult(const RegistrationSummary& summary,
                 const std::optional<Rigid3>& true_target_from_source,

@@ -43,6 +43,9 @@ struct RunMethods {
   bool IsValid(std::string* error) const;
 };
 
+// What is known of the pair before any method.
+PairResult BlankResult(const PairTask& task);
+
 // What the method says of the pair, and its error if there is a truth.
 void FillResult(const RegistrationSummary& summary,
                 const std::optional<Rigid3>& true_target_from_source,
@@ -61,6 +64,7 @@ struct TaskOutcome {
   std::string view;
 };
 
+// Of scans; of matched points see experiments/runner/run_problem.h.
 TaskOutcome RunTask(const PairTask& task, const RunMethods& methods);
 
 }  // namespace quatro

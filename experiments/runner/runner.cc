@@ -7,6 +7,7 @@
 #include <mutex>
 #include <unordered_set>
 
+#include "experiments/runner/run_problem.h"
 #include "features/cloud_text.h"
 #include "features/parallel.h"
 
@@ -71,8 +72,11 @@ RunEnd RunTasks(const std::vector<PairTask>& tasks,
                   }
                   if (end != RunEnd::kDone) return;
                 }
-                const TaskOutcome outcome =
-                    RunTask(*missing[static_cast<std::size_t>(begin)], methods);
+                const PairTask& task =
+                    *missing[static_cast<std::size_t>(begin)];
+                const TaskOutcome outcome = task.make_problem
+                                                ? RunProblem(task, methods)
+                                                : RunTask(task, methods);
                 const std::lock_guard<std::mutex> lock(mutex);
                 if (end == RunEnd::kFailed) return;
                 if (!folder->Append(

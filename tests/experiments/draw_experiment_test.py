@@ -89,6 +89,23 @@ class DrawExperimentTest(unittest.TestCase):
         self.assertEqual([file.name for file in self.draw("--figures=distance,yaw,timing,recall")],
                          ["recall.pdf", "recall.png"])
 
+    def test_bins_are_drawn_where_a_set_has_several(self):
+        self.write(text_of([row(), row("b")]))
+        self.assertEqual(self.draw("--figures=bins"), [])
+        self.write(text_of([row(), row("b", bin_name="95 % outliers")]))
+        self.assertEqual(len(self.draw("--figures=bins")), 2)
+
+    def test_tilts_alone_are_drawn(self):
+        tilts = self.folder / "tilts.csv"
+        tilts.write_text("set,source,target,yaw_deg,rollpitch_deg\n00,7,3,-170,1\n00,8,3,10,x\n",
+                         encoding="utf-8")
+        self.expect_refused("tilts.csv: line 3, column rollpitch_deg is no finite number: 'x'")
+        tilts.write_text("set,source,target,yaw_deg,rollpitch_deg\n00,7,3,-170,1\n",
+                         encoding="utf-8")
+        self.assertEqual([file.name for file in self.draw()], ["tilt.pdf", "tilt.png"])
+        self.write(text_of(ROWS))  # Results come first.
+        self.assertIn("recall.pdf", [file.name for file in self.draw()])
+
     def test_bad_input_is_one_line_and_exit_code_2(self):
         run = subprocess.run([sys.executable, str(SCRIPT), str(self.folder)], capture_output=True,
                              text=True, check=False, stdin=subprocess.DEVNULL)

@@ -17,6 +17,7 @@
 #include "experiments/protocols/draw_evenly.h"
 #include "experiments/protocols/interval_pairs.h"
 #include "experiments/protocols/loop_pairs.h"
+#include "experiments/protocols/problem_families.h"
 #include "experiments/protocols/tilt.h"
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
@@ -478,6 +479,111 @@ TEST(MeasureTiltsTest, SplitsARotationIntoYawAndTheRest) {
             "set,source,target,distance_m,yaw_deg,rollpitch_deg,roll_deg,"
             "pitch_deg\n"
             "00,400,3,5.0000,-170.00000,4.99963,-4.00000,3.00000\n");
+}
+
+TEST(ProblemFamiliesTest, ABinIsAStepAndHasSoManyProblems) {
+  FamilyOptions options;
+  options.num_problems = 2;
+  options.noise_bound = 0.6;
+  options.seed = 5;
+  std::string error;
+  const auto selection = SelectProblems(options, &error);
+  ASSERT_TRUE(selection) << error;
+  std::map<std::string, std::vector<std::string>> bins;
+  std::set<std::string> names;
+  for (const PairTask& task : selection->tasks) {
+    bins[task.set].push_back(task.bin);
+    EXPECT_TRUE(names.insert(task.name).second) << task.name;
+    ASSERT_TRUE(task.make_problem && task.true_target_from_source);
+    EXPECT_EQ(task.make_problem().true_target_from_source.ToMatrix(),
+              task.true_target_from_source->ToMatrix());
+  }
+  ASSERT_EQ(bins.size(), FamilyNames().size());
+  EXPECT_EQ(bins["outliers"].size(), 12u);
+  // sigma = c / 12 ... 2 c / 3.
+  EXPECT_THAT(bins["noise"],
+              ElementsAre("0.05 m noise",
+                          "0.05 m noise",
+                          "0.1 m noise",
+                          "0.1 m noise",
+                          "0.2 m noise",
+                          "0.2 m noise",
+                          "0.4 m noise",
+                          "0.4 m noise"));
+  EXPECT_EQ(bins["quasi_inliers"].front(), "20 quasi-inliers");
+}
+
+TEST(ProblemFamiliesTest, ProblemsAreAsTheirBinSays) {
+  FamilyOptions options;
+  options.num_problems = 1;
+  std::string error;
+  const auto selection = SelectProblems(options, &error);
+  ASSERT_TRUE(selection) << error;
+  for (const PairTask& task : selection->tasks) {
+    const MatchedProblem problem = task.make_problem();
+    const Eigen::VectorXd errors =
+        (problem.target - problem.true_target_from_source.Apply(problem.source))
+            .colwise()
+            .norm();
+    // Four sigma are past c at the loudest noise alone.
+    const auto num_true = static_cast<double>(
+        (errors.array() < 1.6 * options.noise_bound).count());
+    int number = 0;
+    if (std::sscanf(task.bin.c_str(), "%d %% outliers", &number) == 1 &&
+        task.set == "outliers") {
+      EXPECT_EQ(problem.source.cols(), 1000);
+      EXPECT_NEAR(num_true, 1000 - 10 * number, 2) << task.bin;
+    } else if (task.set == "matches") {
+      EXPECT_EQ(task.bin, std::to_string(problem.source.cols()) + " matches");
+      EXPECT_NEAR(
+          num_true, 0.05 * static_cast<double>(problem.source.cols()), 5);
+    } else if (task.set == "degeneracy") {
+      EXPECT_EQ(task.bin,
+                std::to_string(std::lround(num_true)) + " of 50 true");
+    } else if (task.set == "quasi_inliers") {
+      EXPECT_EQ(problem.source.cols(), 500);
+      const auto level = (problem.target -
+                          problem.true_target_from_source.Apply(problem.source))
+                             .topRows<2>()
+                             .colwise()
+                             .norm();
+      std::sscanf(task.bin.c_str(), "%d", &number);
+      const auto num_level = static_cast<double>(
+          (level.array() < 1.6 * options.noise_bound).count());
+      EXPECT_NEAR(num_level, 20 + number, 5);
+    }
+  }
+}
+
+TEST(ProblemFamiliesTest, SeedsMakeOtherProblemsAndBadOptionsAreTold) {
+  FamilyOptions options;
+  options.families = {"noise"};
+  options.num_problems = 1;
+  std::string error;
+  const auto first = SelectProblems(options, &error);
+  options.seed = 2;
+  const auto second = SelectProblems(options, &error);
+  ASSERT_TRUE(first && second) << error;
+  EXPECT_NE(first->tasks[0].true_target_from_source->ToMatrix(),
+            second->tasks[0].true_target_from_source->ToMatrix());
+
+  const auto expect_refused = [&](const FamilyOptions& bad, const char* why) {
+    EXPECT_FALSE(SelectProblems(bad, &error));
+    EXPECT_THAT(error, HasSubstr(why));
+  };
+  FamilyOptions bad = options;
+  bad.families = {"noise", "magic"};
+  expect_refused(bad, "no family magic");
+  bad.families = {"noise", "noise"};
+  expect_refused(bad, "noise comes twice");
+  bad.families = {};
+  expect_refused(bad, "no family is named");
+  bad = options;
+  bad.num_problems = 0;
+  expect_refused(bad, "num_problems = 0");
+  bad = options;
+  bad.noise_bound = -0.1;
+  expect_refused(bad, "noise_bound");
 }
 
 }  // namespace

@@ -84,6 +84,14 @@ class ReportPaperTest(unittest.TestCase):
         self.assertEqual(run.returncode, 0)
         self.assertIn("Not run.", run.stdout)
 
+    def test_figures_without_a_table_are_shown_where_they_are(self):
+        self.write("table_two/table_two.csv", TABLE_TWO.format(five="0.5"))
+        self.assertNotIn("tilt.png", self.run_script().stdout)
+        self.write("tilt/figures/tilt.png", "")
+        page = self.run_script().stdout
+        self.assertIn("(tilt/figures/tilt.png)", page)
+        self.assertNotIn("surrogates.png", page)
+
     def test_nothing_at_all_is_an_error(self):
         run = self.run_script()
         self.assertEqual(run.returncode, 2)

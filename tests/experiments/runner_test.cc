@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "experiments/runner/run_folder.h"
+#include "experiments/runner/run_problem.h"
 #include "features/cloud_io.h"
 #include "features/file.h"
 #include "robust/quatro.h"
+#include "tests/support/random_problems.h"
 #include "tests/support/room_scans.h"
 #include "tests/support/run_program.h"
 
@@ -370,6 +372,85 @@ TEST_F(RunTasksTest, AnOwnMethodStandsBesideOurs) {
   EXPECT_EQ(results[1].target_from_source->ToMatrix(),
             results[0].target_from_source->ToMatrix());
   EXPECT_EQ(results[2].target_from_source->ToMatrix(), anywhere.ToMatrix());
+}
+
+// Matched points in place of scans: of `true_target_from_source` all true, but
+// every tenth.
+PairTask ProblemTask(const Rigid3& true_target_from_source) {
+  PairTask task;
+  task.name = "points";
+  task.true_target_from_source = true_target_from_source;
+  task.make_problem = [true_target_from_source] {
+    MatchedProblem problem;
+    problem.source = RandomPoints(50, 20.0, 3);
+    problem.target = true_target_from_source.Apply(problem.source);
+    for (Eigen::Index i = 0; i < 50; i += 10) {
+      problem.target.col(i) +=
+          Eigen::Vector3d(5.0, static_cast<double>(i), -3.0);
+    }
+    problem.true_target_from_source = true_target_from_source;
+    return problem;
+  };
+  return task;
+}
+
+TEST_F(RunTasksTest, ProblemsAreRunAsScansAre) {
+  const Rigid3 truth{RotationZ(2.0), {3.0, -4.0, 0.5}};
+  tasks_ = {ProblemTask(truth)};
+  methods_.names = {"quatro", "ransac10k"};
+  ASSERT_EQ(Run({}), RunEnd::kDone) << error_;
+  const auto results = ReadResultCsv(Folder() + "/results.csv", &error_);
+  ASSERT_TRUE(results) << error_;
+  ASSERT_EQ(results->size(), 2u);
+  for (const PairResult& result : *results) {
+    EXPECT_EQ(result.status, "registered") << result.method;
+    ASSERT_TRUE(result.error) << result.method;
+    EXPECT_LT(result.error->rotation, 1e-6) << result.method;
+    EXPECT_LT(result.error->translation, 1e-6) << result.method;
+    EXPECT_NEAR(*result.true_yaw, 2.0, 1e-12);
+    EXPECT_EQ(result.num_matches, 50);
+    EXPECT_EQ(result.num_inliers, 45);
+  }
+}
+
+TEST(RunProblemTest, AnOwnMethodIsGivenTheOptions) {
+  RunMethods methods;
+  double noise_bound = 0.0;
+  std::uint64_t seed = 0;
+  methods.own = {{"mine", "", [&](const QuatroOptions& options) -> PoseSolver {
+                    noise_bound = options.noise_bound;
+                    seed = options.seed;
+                    return [options](const PointsRef& p, const PointsRef& q) {
+                      return SolveQuatro(p, q, options);
+                    };
+                  }}};
+  methods.names = {"mine"};
+  methods.options.quatro.noise_bound = 0.125;
+  methods.options.seed = 17;
+  const Rigid3 truth{RotationZ(-1.0), {1.0, 2.0, 0.0}};
+  const TaskOutcome outcome = RunProblem(ProblemTask(truth), methods);
+  ASSERT_EQ(outcome.results.size(), 1u);
+  EXPECT_EQ(outcome.results[0].method, "mine");
+  ASSERT_TRUE(outcome.results[0].error);
+  EXPECT_LT(outcome.results[0].error->translation, 1e-6);
+  EXPECT_EQ(noise_bound, 0.125);
+  EXPECT_EQ(seed, 17u);
+}
+
+TEST(RunProblemTest, MethodsThatNeedMoreThanMatchesAreRefused) {
+  RunMethods methods;
+  std::string error;
+  methods.names = {"quatro", "teaser"};
+  EXPECT_TRUE(CanRunProblems(methods, &error)) << error;
+  methods.names = {"quatro", "icp"};
+  EXPECT_FALSE(CanRunProblems(methods, &error));
+  EXPECT_THAT(error, HasSubstr("icp works on clouds"));
+  methods.names = {"quatro_ins"};
+  EXPECT_FALSE(CanRunProblems(methods, &error));
+  EXPECT_THAT(error, HasSubstr("quatro_ins needs an INS"));
+  methods.names = {"quatro", "quatro"};
+  EXPECT_FALSE(CanRunProblems(methods, &error));
+  EXPECT_THAT(error, HasSubstr("comes twice"));
 }
 
 TEST(RunMethodsTest, AnOwnNameIsKnownUnlessItIsOneOfOurs) {
