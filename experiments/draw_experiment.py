@@ -5,9 +5,9 @@
 of --protocol=tilt, as PDF and PNG.
 
     experiments/with_python.sh matplotlib experiments/draw_experiment.py RUN [--output=FOLDER]
-        [--figures=success,bins,distance,yaw,tilt,timing,recall]
+        [--figures=success,bins,distance,yaw,tilt,timing,recall] [--limit=2/10]
 
-    success   pairs within 2 m and 10 deg by set, with Wilson's 95 % intervals
+    success   pairs within the limit [m/deg] by set, with Wilson's 95 % intervals
     bins      the same over the bins of each set that has several
     distance  errors of all answers by bin of distance ("8-10 m"): boxes from quartile to
               quartile, whiskers from the 5th to the 95th percentile
@@ -37,7 +37,6 @@ NUMBERS = ("distance_m", "true_yaw_deg", "true_tilt_deg", "rotation_error_deg",
            "translation_error_m", "total_ms")
 ERRORS = (("translation_error_m", "translation error [m]"),
           ("rotation_error_deg", "rotation error [deg]"))
-LIMIT = (2.0, 10.0)  # [m], [deg]
 FRONT_END = ("voxels", "features", "matching")
 LINES = ("-", "--", "-.", ":")
 # An error below it is drawn as it: the axes are logarithmic.
@@ -63,6 +62,13 @@ def parse_number(text, where):
     if not math.isfinite(value):
         raise BadInput(f"{where} is no finite number: {text!r}")
     return value
+
+
+def parse_limit(text):
+    parts = [parse_number(part, "--limit") for part in text.split("/")]
+    if len(parts) != 2 or None in parts or min(parts) < 0:
+        raise BadInput(f"--limit={text}, must be like 2/10 [m/deg]")
+    return parts
 
 
 def parse_stages(text, where):
@@ -150,10 +156,10 @@ def posed(results):
     return [r for r in results if r["status"] != "unreadable" and r["distance_m"] is not None]
 
 
-def succeeds(result):
+def succeeds(result, limit):
     return (result["translation_error_m"] is not None
-            and result["translation_error_m"] <= LIMIT[0]
-            and result["rotation_error_deg"] <= LIMIT[1])
+            and result["translation_error_m"] <= limit[0]
+            and result["rotation_error_deg"] <= limit[1])
 
 
 def distance_of(bin_name):
@@ -210,8 +216,8 @@ def draw_success(results):
             own = [r for r in results if r["method"] == method and r["set"] == name]
             if not own:
                 continue
-            rate = sum(map(succeeds, own)) / len(own)
-            low, high = wilson(sum(map(succeeds, own)), len(own))
+            rate = sum(r["succeeds"] for r in own) / len(own)
+            low, high = wilson(sum(r["succeeds"] for r in own), len(own))
             places.append(s + (m - (len(methods) - 1) / 2) * width)
             rates.append(100 * rate)
             below.append(100 * (rate - low))
@@ -244,7 +250,7 @@ def draw_bins(results):
                        if (r["set"], r["bin"], r["method"]) == (name, bin_name, method)]
                 if not own:
                     continue
-                num = sum(map(succeeds, own))
+                num = sum(r["succeeds"] for r in own)
                 low, high = wilson(num, len(own))
                 rate = num / len(own)
                 rates.append(100 * rate)
@@ -428,12 +434,17 @@ def main(args):
     parser.add_argument("--output", metavar="FOLDER", help="for the figures (default: RUN/figures)")
     parser.add_argument("--figures", default=",".join(FIGURES), metavar="A,B",
                         help="which ones (default: all)")
+    parser.add_argument("--limit", default="2/10", metavar="M/DEG",
+                        help="what success is within (default: 2/10)")
     options = parser.parse_args(args)
     chosen = options.figures.split(",")
     for name in chosen:
         if name not in FIGURES:
             raise BadInput(f"--figures: there is no {name!r}; there are {','.join(FIGURES)}")
+    limit = parse_limit(options.limit)
     results = read_results(options.run)
+    for result in results:
+        result["succeeds"] = succeeds(result, limit)
     folder = options.output or os.path.join(options.run, "figures")
     try:
         os.makedirs(folder, exist_ok=True)

@@ -60,6 +60,11 @@ DEFINE_int32(max_pairs_per_source,
              1,
              "Of loop and timing: pairs with one frame as the source; 0: all");
 DEFINE_int32(max_frames, 0, "Of odometry: of each drive; 0: all there are");
+DEFINE_string(limits,
+              "2/10,2/5,0.6/5",
+              "On scans and of synthetic: a pair is a success within so much "
+              "[m/deg]; the first is that of tables of one. The same command "
+              "with others makes the tables of a finished run anew");
 DEFINE_uint64(seed, 1, "Of the choice of pairs and of the methods");
 DEFINE_string(shard,
               "1/1",

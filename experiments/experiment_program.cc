@@ -12,6 +12,7 @@
 #include "experiments/experiment_flags.h"
 #include "experiments/gnc_film.h"
 #include "experiments/methods.h"
+#include "experiments/metrics/registration_metrics.h"
 #include "experiments/outputs.h"
 #include "experiments/program.h"
 #include "experiments/progress_line.h"
@@ -75,11 +76,12 @@ std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
 }
 
 // Once all pairs are done.
-int LeaveTables() {
+int LeaveTables(const quatro::TableOptions& options) {
   std::string error, summary;
   const auto report_template = quatro::ReadReportTemplate(&error);
   if (!report_template) std::fprintf(stderr, "%s\n", error.c_str());
-  if (!quatro::WriteTables(FLAGS_output, report_template, &summary, &error)) {
+  if (!quatro::WriteTables(
+          FLAGS_output, options, report_template, &summary, &error)) {
     return Fail(error);
   }
   std::fputs(summary.c_str(), stdout);
@@ -92,6 +94,10 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
     return Fail("--output is empty, must name a folder");
   const auto methods = quatro::MethodsOfFlags(own, &error);
   if (!methods) return Fail(error);
+  const auto limits = quatro::ParseLimits(FLAGS_limits, &error);
+  if (!limits) return Fail("--limits: " + error);
+  quatro::TableOptions tables;
+  tables.limits = *limits;
   const auto shard = quatro::ParseShard(FLAGS_shard, &error);
   if (!shard) return Fail("--shard: " + error);
   const auto selection = quatro::TasksOfFlags(&error);
@@ -111,7 +117,7 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
   experiment.manifest = quatro::ManifestOfFlags();
   if (FLAGS_merge) {
     if (!quatro::MergeShards(experiment, &error)) return Fail(error);
-    return LeaveTables();
+    return LeaveTables(tables);
   }
 
   quatro::ListenForStop();
@@ -129,7 +135,7 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
     case quatro::RunEnd::kFailed:
       return Fail(error);
   }
-  return shard->IsWhole() ? LeaveTables() : quatro::kExitDone;
+  return shard->IsWhole() ? LeaveTables(tables) : quatro::kExitDone;
 }
 
 void TellNotes(const std::vector<quatro::SequenceData>& drives) {

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "experiments/number_text.h"
+#include "features/cloud_text.h"
+
 namespace quatro {
 namespace {
 
@@ -74,6 +77,26 @@ std::string SuccessLimit::Name() const {
 
 std::vector<SuccessLimit> UsualLimits() {
   return {{2.0, 10.0 * kDegree}, {2.0, 5.0 * kDegree}, {0.6, 5.0 * kDegree}};
+}
+
+std::optional<std::vector<SuccessLimit>> ParseLimits(const std::string& text,
+                                                     std::string* error) {
+  std::vector<SuccessLimit> limits;
+  for (const std::string_view field : SplitFields(text, ",")) {
+    const auto parts = SplitFields(field, "/");
+    const auto translation =
+        parts.size() == 2 ? ParseFiniteNumber(parts[0]) : std::nullopt;
+    const auto degrees =
+        parts.size() == 2 ? ParseFiniteNumber(parts[1]) : std::nullopt;
+    if (!translation || !degrees || *translation < 0.0 || *degrees < 0.0) {
+      *error = Quoted(field) + " is no limit, must be like 2/10 [m/deg]";
+      return std::nullopt;
+    }
+    limits.push_back({*translation, *degrees * kDegree});
+  }
+  if (!limits.empty()) return limits;
+  *error = "there is no limit, must be like 2/10,0.6/5 [m/deg]";
+  return std::nullopt;
 }
 
 bool IsReadable(const PairResult& result) {

@@ -39,6 +39,10 @@ struct SuccessLimit {
 // (kitti_10m).
 std::vector<SuccessLimit> UsualLimits();
 
+// "2/10,0.6/5": metres and degrees. Nullopt with *error set.
+std::optional<std::vector<SuccessLimit>> ParseLimits(const std::string& text,
+                                                     std::string* error);
+
 // The scans could be read.
 bool IsReadable(const PairResult& result);
 

@@ -62,6 +62,7 @@ std::string NameOf(const std::string& folder) {
 
 bool WriteRunReport(const std::string& folder,
                     const std::vector<PairResult>& results,
+                    const std::vector<SuccessLimit>& limits,
                     const std::vector<RunTable>& tables,
                     const std::string& report_template,
                     std::string* error) {
@@ -72,6 +73,7 @@ bool WriteRunReport(const std::string& folder,
   page.manifest = *manifest;
   page.tables = tables;
   page.results = results;
+  page.limits = limits;
   page.views = ReadViews(folder, results);
   page.figures = ReadFigures(folder);
   return WriteFileAtomically(

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/metrics/registration_metrics.h"
 #include "experiments/runner/pair_result.h"
 #include "experiments/tables/run_tables.h"
 
@@ -20,6 +21,7 @@ namespace quatro {
 // read or the page can't be written.
 bool WriteRunReport(const std::string& folder,
                     const std::vector<PairResult>& results,
+                    const std::vector<SuccessLimit>& limits,
                     const std::vector<RunTable>& tables,
                     const std::string& report_template,
                     std::string* error);

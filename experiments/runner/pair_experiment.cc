@@ -159,6 +159,7 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
 }
 
 bool WriteTables(const std::string& output,
+                 const TableOptions& options,
                  const std::optional<std::string>& report_template,
                  std::string* summary,
                  std::string* error) {
@@ -171,7 +172,7 @@ bool WriteTables(const std::string& output,
     *error = folder + ": " + status.message();
     return false;
   }
-  const std::vector<RunTable> tables = MakeRunTables(*results, TableOptions());
+  const std::vector<RunTable> tables = MakeRunTables(*results, options);
   for (const TableFile& file : FormatRunTables(tables)) {
     if (!WriteFileAtomically(folder + "/" + file.name, file.text, error)) {
       return false;
@@ -181,7 +182,8 @@ bool WriteTables(const std::string& output,
     if (table.name == "summary") *summary = FormatTable(table.table);
   }
   return !report_template ||
-         WriteRunReport(output, *results, tables, *report_template, error);
+         WriteRunReport(
+             output, *results, options.limits, tables, *report_template, error);
 }
 
 }  // namespace quatro

@@ -21,6 +21,7 @@
 #include "experiments/runner/pair_task.h"
 #include "experiments/runner/run_task.h"
 #include "experiments/runner/runner.h"
+#include "experiments/tables/result_groups.h"
 
 namespace quatro {
 
@@ -54,6 +55,7 @@ bool MergeShards(const PairExperiment& experiment, std::string* error);
 // From results.csv of the whole, tables/NAME.csv and .tex, and report.html if
 // there is a template for it. *summary is the table for a terminal.
 bool WriteTables(const std::string& output,
+                 const TableOptions& options,
                  const std::optional<std::string>& report_template,
                  std::string* summary,
                  std::string* error);

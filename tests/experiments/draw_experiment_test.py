@@ -133,6 +133,8 @@ class DrawExperimentTest(unittest.TestCase):
         self.expect_refused("line 2 has one error of two")
         self.write(text_of(ROWS))
         self.expect_refused("there is no 'pie'", "--figures=success,pie")
+        for limit in ("2", "2/", "2/-1", "1/2/3"):
+            self.expect_refused("must be like 2/10", "--limit=" + limit)
         self.expect_refused("results.csv: File exists",
                             "--output=" + str(self.folder / "results.csv"))
         self.expect_refused("unrecognized arguments", "--colour=red")
@@ -140,10 +142,11 @@ class DrawExperimentTest(unittest.TestCase):
     def test_success_is_within_both_limits(self):
         def result(translation, rotation):
             return {"translation_error_m": translation, "rotation_error_deg": rotation}
-        self.assertTrue(draw_experiment.succeeds(result(2.0, 10.0)))
-        self.assertFalse(draw_experiment.succeeds(result(2.01, 1.0)))
-        self.assertFalse(draw_experiment.succeeds(result(0.1, 10.01)))
-        self.assertFalse(draw_experiment.succeeds(result(None, None)))
+        limit = draw_experiment.parse_limit("2/10")
+        self.assertTrue(draw_experiment.succeeds(result(2.0, 10.0), limit))
+        self.assertFalse(draw_experiment.succeeds(result(2.01, 1.0), limit))
+        self.assertFalse(draw_experiment.succeeds(result(0.1, 10.01), limit))
+        self.assertFalse(draw_experiment.succeeds(result(None, None), limit))
 
     def test_intervals_are_wilsons(self):
         # Newcombe 1998, table I, as in intervals_test.cc.

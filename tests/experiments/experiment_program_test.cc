@@ -28,6 +28,7 @@ namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int kNumPairs = 12;
 constexpr int kNumViews = 5;
@@ -177,6 +178,20 @@ TEST_F(ExperimentProgramTest, PartsMergeIntoTheWhole) {
   ASSERT_EQ(merged.exit_code, 0) << merged.err;
   EXPECT_EQ(TablesOf("parts"), TablesOf("whole"));
   EXPECT_EQ(ReportOf("parts"), ReportOf("whole"));
+}
+
+TEST_F(ExperimentProgramTest, OtherLimitsMakeTheTablesAnew) {
+  ASSERT_EQ(RunProgram("quatro_experiment", Flags("run")).exit_code, 0);
+  const ProgramRun again =
+      RunProgram("quatro_experiment", Flags("run", "--limits=0/0"));
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("success % / 0 m 0 deg"));
+  EXPECT_THAT(again.out, Not(HasSubstr("100.00")));
+  EXPECT_THAT(again.out, Not(HasSubstr("2 m 10 deg")));
+  ExpectBadInput("quatro_experiment",
+                 Flags("run", "--limits=2"),
+                 "--limits",
+                 "must be like 2/10");
 }
 
 TEST_F(ExperimentProgramTest, ProblemsAreStoppedGoneOnWithAndSharedOutToo) {

@@ -119,6 +119,20 @@ TEST(SuccessLimit, NamesItself) {
   EXPECT_THAT(names, ElementsAre("2 m 10 deg", "2 m 5 deg", "0.6 m 5 deg"));
 }
 
+TEST(ParseLimits, AreMetresAndDegrees) {
+  std::string error;
+  const auto limits = ParseLimits("2/10,0.6/5", &error);
+  ASSERT_TRUE(limits) << error;
+  ASSERT_EQ(limits->size(), 2u);
+  EXPECT_EQ((*limits)[1].translation, 0.6);
+  EXPECT_NEAR((*limits)[1].rotation, 5.0 * M_PI / 180.0, 1e-15);
+  EXPECT_EQ((*limits)[0].Name(), UsualLimits()[0].Name());
+  for (const char* text : {"", "2", "2/", "2/-1", "x/1", "1/2/3"}) {
+    EXPECT_FALSE(ParseLimits(text, &error)) << text;
+    EXPECT_NE(error.find("must be like"), std::string::npos) << error;
+  }
+}
+
 TEST(Recall, IsByHand) {
   const std::vector<double> grid = {0.0, 0.2, 1.2, 3.0, 100.0};
   EXPECT_THAT(TranslationRecall(Mixed(), grid),
