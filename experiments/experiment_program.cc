@@ -21,6 +21,7 @@
 #include "experiments/protocols/protocols.h"
 #include "experiments/protocols/tilt.h"
 #include "experiments/report/report_template.h"
+#include "experiments/runner/data_checksum.h"
 #include "experiments/runner/manifest.h"
 #include "experiments/runner/pair_experiment.h"
 #include "experiments/runner/stop_signal.h"
@@ -146,6 +147,30 @@ void TellNotes(const std::vector<quatro::SequenceData>& drives) {
   }
 }
 
+// Methods and intervals are runs of their own and may come to others.
+bool TakeOdometryManifest(const std::vector<quatro::SequenceData>& drives,
+                          std::string* error) {
+  quatro::Manifest manifest = quatro::ManifestOfFlags();
+  manifest.flags.erase("ins_mode");
+  manifest.flags.erase("methods");
+  manifest.flags["max_frames"] = std::to_string(FLAGS_max_frames);
+  manifest.other_flags["methods"] = FLAGS_methods;
+  std::vector<std::string> scans;
+  for (const quatro::SequenceData& drive : drives) {
+    for (const auto& [frame, path] : drive.scans) scans.push_back(path);
+  }
+  const auto data = quatro::SummarizeData("", scans, {}, error);
+  if (!data) return false;
+  manifest.data = *data;
+  std::error_code status;
+  std::filesystem::create_directories(FLAGS_output, status);
+  if (status) {
+    *error = FLAGS_output + ": " + status.message();
+    return false;
+  }
+  return quatro::TakeManifest(FLAGS_output, manifest, error);
+}
+
 int RunOdometryProtocol() {
   std::string error;
   if (FLAGS_output.empty()) {
@@ -164,6 +189,7 @@ int RunOdometryProtocol() {
   if (!options.IsValid(&error)) return Fail(error);
   const auto drives = quatro::DrivesOfFlags(&error);
   if (!drives) return Fail(error);
+  if (!TakeOdometryManifest(*drives, &error)) return Fail(error);
   TellNotes(*drives);
   const auto results = quatro::RunOdometries(
       *drives,
@@ -221,7 +247,9 @@ int RunTiltProtocol() {
   std::filesystem::create_directories(FLAGS_output, status);
   if (status) return Fail(FLAGS_output + ": " + status.message());
   if (!quatro::WriteOutputs(
-          {{FLAGS_output + "/tilts.csv", quatro::FormatTilts(tilts)}},
+          {{FLAGS_output + "/manifest.json",
+            quatro::FormatManifest(quatro::ManifestOfFlags())},
+           {FLAGS_output + "/tilts.csv", quatro::FormatTilts(tilts)}},
           &error)) {
     return Fail(error);
   }

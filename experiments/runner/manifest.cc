@@ -3,7 +3,9 @@
 
 #include "experiments/runner/manifest.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "features/file.h"
 
@@ -184,6 +186,23 @@ bool DecidesTheSame(const Manifest& was,
                   is.data.checksum;
   }
   return difference->empty();
+}
+
+bool TakeManifest(const std::string& folder,
+                  const Manifest& manifest,
+                  std::string* error) {
+  const std::string path = folder + "/manifest.json";
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return WriteFileAtomically(path, FormatManifest(manifest), error);
+  }
+  const auto was = ReadManifest(path, error);
+  if (!was) return false;
+  std::string difference;
+  if (DecidesTheSame(*was, manifest, &difference)) return true;
+  *error = folder + ": is of another run: " + difference +
+           "; take another --output, or the flags and data it began with";
+  return false;
 }
 
 }  // namespace quatro

@@ -53,6 +53,12 @@ bool DecidesTheSame(const Manifest& was,
                     const Manifest& is,
                     std::string* difference);
 
+// Leaves manifest.json in a folder that has none. Returns false and sets *error
+// if that can't be, or if the one that is there decides other results.
+bool TakeManifest(const std::string& folder,
+                  const Manifest& manifest,
+                  std::string* error);
+
 }  // namespace quatro
 
 #endif  // QUATRO_EXPERIMENTS_RUNNER_MANIFEST_H_

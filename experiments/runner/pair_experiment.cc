@@ -49,11 +49,9 @@ void AppendBits(const Attitude& attitude, std::string* bytes) {
   bytes->append(reinterpret_cast<const char*>(angles), sizeof(angles));
 }
 
-// Leaves the manifest in a folder that has none, and compares it with the one
-// that it has.
-bool TakeManifest(const std::string& folder,
-                  const PairExperiment& experiment,
-                  std::string* error) {
+// With what the tasks are, and the scans they name.
+std::optional<Manifest> ManifestOf(const PairExperiment& experiment,
+                                   std::string* error) {
   Manifest manifest = experiment.manifest;
   manifest.flags["tasks"] = ChecksumOf(experiment.tasks);
   std::vector<std::string> scans;
@@ -63,20 +61,9 @@ bool TakeManifest(const std::string& folder,
     scans.push_back(task.target);
   }
   const auto data = SummarizeData("", scans, {}, error);
-  if (!data) return false;
+  if (!data) return std::nullopt;
   manifest.data = *data;
-  const std::string path = folder + "/manifest.json";
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) {
-    return WriteFileAtomically(path, FormatManifest(manifest), error);
-  }
-  const auto was = ReadManifest(path, error);
-  if (!was) return false;
-  std::string difference;
-  if (DecidesTheSame(*was, manifest, &difference)) return true;
-  *error = folder + ": is of another run: " + difference +
-           "; take another --output, or the flags and data it began with";
-  return false;
+  return manifest;
 }
 
 }  // namespace
@@ -110,7 +97,9 @@ RunEnd RunPairExperiment(const PairExperiment& experiment,
       RunFolder::Open(ShardFolder(experiment.output, experiment.shard),
                       experiment.methods.names,
                       error);
-  if (!folder || !TakeManifest(folder->path(), experiment, error)) {
+  if (!folder) return RunEnd::kFailed;
+  const auto manifest = ManifestOf(experiment, error);
+  if (!manifest || !TakeManifest(folder->path(), *manifest, error)) {
     return RunEnd::kFailed;
   }
   std::vector<PairTask> tasks = experiment.tasks;
@@ -135,12 +124,14 @@ bool MergeShards(const PairExperiment& experiment, std::string* error) {
   }
   const std::vector<std::string>& methods = experiment.methods.names;
   const auto whole = RunFolder::Open(experiment.output, methods, error);
-  if (!whole || !TakeManifest(experiment.output, experiment, error)) {
+  if (!whole) return false;
+  const auto manifest = ManifestOf(experiment, error);
+  if (!manifest || !TakeManifest(experiment.output, *manifest, error)) {
     return false;
   }
   for (const std::string& path : shards) {
     const auto shard = RunFolder::Open(path, methods, error);
-    if (!shard || !TakeManifest(path, experiment, error)) return false;
+    if (!shard || !TakeManifest(path, *manifest, error)) return false;
     const auto results = ReadResultCsv(path + "/rows.csv", error);
     if (!results) return false;
     for (auto first = results->begin(); first != results->end();

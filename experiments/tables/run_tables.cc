@@ -29,8 +29,7 @@ std::vector<PairResult> OfTableThree(const std::vector<PairResult>& results) {
 // Nothing can be drawn evenly from two overlapping bins at once. Of bins that
 // are no distances, neither.
 std::vector<PairResult> OfTableOne(const std::vector<PairResult>& results) {
-  const auto of_bin =
-      SelectResults(results, std::nullopt, std::nullopt, "9-12 m");
+  auto of_bin = SelectResults(results, std::nullopt, std::nullopt, "9-12 m");
   if (!of_bin.empty()) return of_bin;
   std::vector<PairResult> by_distance = results;
   std::erase_if(by_distance, [](const PairResult& result) {

@@ -115,6 +115,54 @@ TEST_F(OdometryProgramTest, MostlyLostIsNotVouchedFor) {
   EXPECT_THAT(run.err, HasSubstr("frame 1 lost: the scan has 10 points"));
 }
 
+// Table II by quatro_experiment.
+TEST_F(OdometryProgramTest, ATableGoesOnAsWhatItWas) {
+  const ProgramRun simulated = RunProgram(
+      "quatro_simulate",
+      {"--output=" + PathOf("drive"), "--num_frames=12", "--frame_spacing=10"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  const auto flags = [this](const std::string& more) {
+    return std::vector<std::string>{"--protocol=odometry",
+                                    "--data=" + PathOf("drive"),
+                                    "--intervals=1",
+                                    "--methods=quatro",
+                                    "--output=" + PathOf("run"),
+                                    more};
+  };
+  const ProgramRun run = RunProgram("quatro_experiment", flags("--threads=2"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("quatro  "));
+  EXPECT_THAT(Read("run/table_two.csv"), HasSubstr("\nquatro,measured,"));
+  EXPECT_THAT(Read("run/table_two.tex"), HasSubstr("toprule"));
+  EXPECT_THAT(Read("run/manifest.json"), HasSubstr("\"preset\": \"kitti\""));
+  // It has the time that it took.
+  const std::string description = Read("run/odometry/drive_quatro_1.json");
+  EXPECT_FALSE(description.empty());
+
+  const ProgramRun more =
+      RunProgram("quatro_experiment", flags("--methods=quatro,fgr"));
+  ASSERT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_EQ(Read("run/odometry/drive_quatro_1.json"), description);
+  EXPECT_THAT(Read("run/table_two.csv"), HasSubstr("\nfgr,measured,"));
+  ExpectBadInput("quatro_experiment",
+                 flags("--preset=paper"),
+                 "is of another run",
+                 "--preset was 'kitti', is 'paper'");
+  ExpectBadInput(
+      "quatro_experiment", flags("--max_frames=5"), "is of another run", "");
+
+  const ProgramRun tilt = RunProgram("quatro_experiment",
+                                     {"--protocol=tilt",
+                                      "--data=" + PathOf("drive"),
+                                      "--bins=0-30",
+                                      "--min_frame_gap=1",
+                                      "--min_path=5",
+                                      "--output=" + PathOf("tilt")});
+  ASSERT_EQ(tilt.exit_code, 0) << tilt.err;
+  EXPECT_THAT(Read("tilt/manifest.json"), HasSubstr("\"protocol\": \"tilt\""));
+  EXPECT_THAT(Read("tilt/tilts.csv"), HasSubstr("\ndrive,"));
+}
+
 TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {
   const std::string program = "quatro_odometry";
   const std::string drive = "--input=" + SimulateDrive();
