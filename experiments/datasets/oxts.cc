@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr std::size_t kNumNumbers = 30;
+constexpr double kMaxAltitude = 1e5;  // [m]
 
 std::optional<OxtsReading> ReadReading(const std::string& path,
                                        std::string* error) {
@@ -51,6 +52,14 @@ std::optional<OxtsReading> ReadReading(const std::string& path,
   }
   if (!(std::abs(values[0]) < 90.0)) {
     *error = path + ": line 1 has a latitude that is not within 90 deg";
+    return std::nullopt;
+  }
+  if (!(std::abs(values[1]) <= 360.0)) {
+    *error = path + ": line 1 has a longitude that is not within 360 deg";
+    return std::nullopt;
+  }
+  if (!(std::abs(values[2]) <= kMaxAltitude)) {
+    *error = path + ": line 1 has an altitude of more than 100 km";
     return std::nullopt;
   }
   OxtsReading reading;

@@ -26,8 +26,8 @@ namespace quatro {
 
 struct OxtsReading {
   double latitude = 0.0;   // [deg], within (-90, 90).
-  double longitude = 0.0;  // [deg]
-  double altitude = 0.0;   // [m]
+  double longitude = 0.0;  // [deg], within [-360, 360].
+  double altitude = 0.0;   // [m], within 100 km.
   Attitude attitude;       // World from IMU.
 };
 

@@ -337,6 +337,17 @@ TEST_F(KittiOdometryTest, BadInputIsNamed) {
   ExpectBad(In("00"), PathOf(oxts), "line 1 number 1 is not a finite number");
   Put(oxts, "95" + line.substr(line.find(' ')));
   ExpectBad(In("00"), PathOf(oxts), "latitude");
+  const auto with_zeros = [](const std::string& first) {
+    std::string reading = first;
+    for (int i = 3; i < 30; ++i) reading += " 0";
+    return reading + "\n";
+  };
+  Put(oxts, with_zeros("49 -360.5 100"));
+  ExpectBad(In("00"), PathOf(oxts), "longitude");
+  Put(oxts, with_zeros("49 1e300 100"));
+  ExpectBad(In("00"), PathOf(oxts), "longitude");
+  Put(oxts, with_zeros("49 8 -1e300"));
+  ExpectBad(In("00"), PathOf(oxts), "altitude");
   Put(oxts, line);
   ReadOdometry(In("00"));
   Put("00/calib_imu_to_velo.txt", "R: 1 0 0 0 1 0 0 0 1\n");
