@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "experiments/one_line.h"
 #include "features/file.h"
 
 namespace quatro {
@@ -54,11 +55,8 @@ std::optional<double> ParseNumber(std::string_view field) {
 
 std::string Quoted(std::string_view text) {
   const bool is_long = text.size() > kMaxQuoted;
-  std::string quoted(text.substr(0, kMaxQuoted));
-  for (char& c : quoted) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return "'" + quoted + (is_long ? "...'" : "'");
+  const std::string quoted(text.substr(0, kMaxQuoted));
+  return "'" + OneLine(quoted) + (is_long ? "...'" : "'");
 }
 
 }  // namespace

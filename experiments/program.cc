@@ -12,6 +12,7 @@
 #include <new>
 #include <system_error>
 
+#include "experiments/one_line.h"
 #include "experiments/progress_line.h"
 
 DECLARE_bool(help);
@@ -101,13 +102,10 @@ std::optional<int> ParseFlags(const std::string& usage,
 
 int Fail(const std::string& error) {
   EndProgressLine();
-  // Paths and flags may hold anything; a terminal would act upon it.
-  std::string line = error;
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  std::fprintf(
-      stderr, "%s: %s\n", gflags::ProgramInvocationShortName(), line.c_str());
+  std::fprintf(stderr,
+               "%s: %s\n",
+               gflags::ProgramInvocationShortName(),
+               OneLine(error).c_str());
   return kExitBadInput;
 }
 

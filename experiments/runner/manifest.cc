@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "experiments/one_line.h"
 #include "features/file.h"
 
 namespace quatro {
@@ -70,8 +71,8 @@ class FieldReader {
 
   void Fail(const char* group, const char* name, const std::string& type) {
     if (!error_.empty()) return;
-    error_ =
-        (group ? std::string(group) + "." : "") + name + " must be " + type;
+    error_ = OneLine((group ? std::string(group) + "." : "") + name) +
+             " must be " + type;
   }
 
   const Json& json_;
@@ -185,6 +186,7 @@ bool DecidesTheSame(const Manifest& was,
     *difference = "checksum of the data was " + was.data.checksum + ", is " +
                   is.data.checksum;
   }
+  *difference = OneLine(*difference);
   return difference->empty();
 }
 

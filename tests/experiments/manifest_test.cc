@@ -97,6 +97,10 @@ TEST(Manifest, WhatIsMissingOrOfAnotherTypeIsNamed) {
   bad["machine"]["cores"] = -1;
   EXPECT_FALSE(ParseManifest(bad.dump(), &error));
   EXPECT_EQ(error, "machine.cores must be a whole number >= 0");
+  bad = good;
+  bad["flags"]["pre\x7f\nset"] = 3;
+  EXPECT_FALSE(ParseManifest(bad.dump(), &error));
+  EXPECT_EQ(error, "flags.pre??set must be text");
   for (const char* const text : {"", "[]", "{", "3"}) {
     EXPECT_FALSE(ParseManifest(text, &error));
     EXPECT_EQ(error, "is no JSON object");
@@ -123,6 +127,8 @@ TEST(DecidesTheSame, LooksAtWhatDecidesAndAtNothingElse) {
   };
   expect([](Manifest* m) { m->flags["preset"] = "paper"; },
          "flag --preset was 'kitti', is 'paper'");
+  expect([](Manifest* m) { m->flags["preset"] = "pa\nper"; },
+         "flag --preset was 'kitti', is 'pa?per'");
   expect([](Manifest* m) { m->flags["ins"] = "on"; },
          "flag --ins was not set, is 'on'");
   expect([](Manifest* m) { m->flags.erase("methods"); },
