@@ -99,6 +99,7 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
   if (!limits) return Fail("--limits: " + error);
   quatro::TableOptions tables;
   tables.limits = *limits;
+  tables.are_scans = FLAGS_protocol != "synthetic";
   const auto shard = quatro::ParseShard(FLAGS_shard, &error);
   if (!shard) return Fail("--shard: " + error);
   const auto selection = quatro::TasksOfFlags(&error);

@@ -30,6 +30,9 @@ struct TableOptions {
   // printed; each stage's time: for CSV rather than for print, too.
   bool with_details = true;
 
+  // Pairs of scans, and not matched points: those 9-12 m apart make Table I.
+  bool are_scans = true;
+
   // Rows of what the paper has, where a set or a bin has the paper's name.
   bool with_quoted = true;
 };

@@ -26,16 +26,12 @@ std::vector<PairResult> OfTableThree(const std::vector<PairResult>& results) {
   return chosen;
 }
 
-// Nothing can be drawn evenly from two overlapping bins at once. Of bins that
-// are no distances, neither.
+// Nothing can be drawn evenly from two overlapping bins at once.
 std::vector<PairResult> OfTableOne(const std::vector<PairResult>& results) {
-  auto of_bin = SelectResults(results, std::nullopt, std::nullopt, "9-12 m");
-  if (!of_bin.empty()) return of_bin;
-  std::vector<PairResult> by_distance = results;
-  std::erase_if(by_distance, [](const PairResult& result) {
-    return !result.bin.empty() && !result.bin.ends_with(" m");
-  });
-  return SelectDistance(WithoutRepeats(by_distance), 9.0, 12.0);
+  const auto of_bin =
+      SelectResults(results, std::nullopt, std::nullopt, "9-12 m");
+  return of_bin.empty() ? SelectDistance(WithoutRepeats(results), 9.0, 12.0)
+                        : of_bin;
 }
 
 // A set for each bin; none if the bins are others.
@@ -76,7 +72,8 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
   };
 
   const auto once = WithoutRepeats(results);
-  const auto near = OfTableOne(results);
+  const auto near =
+      options.are_scans ? OfTableOne(results) : std::vector<PairResult>();
   add("table_one",
       "Success [%], pairs 9-12 m apart, within " + options.limits[0].Name() +
           ".",
