@@ -179,6 +179,12 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
           tree.points(), radius, num_threads, BestSimdLevel())) {
     return *std::move(found);
   }
+  return FindNeighborhoodsByTree(tree, radius, num_threads);
+}
+
+Neighborhoods FindNeighborhoodsByTree(const KdTree& tree,
+                                      double radius,
+                                      int num_threads) {
   return FindRows(tree.points().cols(), num_threads, [&](Eigen::Index i) {
     return tree.WithinRadius(tree.points().col(i), radius);
   });

@@ -59,6 +59,12 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);
 
+// The same, bit for bit, by the tree alone: what cells are measured against,
+// and where they can't be used.
+Neighborhoods FindNeighborhoodsByTree(const KdTree& tree,
+                                      double radius,
+                                      int num_threads);
+
 // The same of the `k` nearest, nearest first; fewer if the tree holds fewer.
 Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
                                        int k,

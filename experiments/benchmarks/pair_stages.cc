@@ -82,25 +82,6 @@ void ForBoth(const PairInput& pair, const Body& body) {
   }
 }
 
-// FindNeighborhoods() by the tree alone, one point after another.
-Neighborhoods FindByTree(const KdTree& tree, double radius) {
-  NeighborhoodsBuilder builder(tree.points().cols());
-  {
-    NeighborhoodsBuilder::Writer writer(&builder);
-    for (Eigen::Index i = 0; i < tree.points().cols(); ++i) {
-      const auto found = tree.WithinRadius(tree.points().col(i), radius);
-      const auto room = writer.MakeRoom(found.size());
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        room.index[k] = static_cast<std::int32_t>(found[k].index);
-        room.squared_distance[k] =
-            static_cast<float>(found[k].squared_distance);
-      }
-      writer.Add(i, found.size());
-    }
-  }
-  return std::move(builder).Finish();
-}
-
 void AddFrontEnd(const Adder& add) {
   add("voxels/quatro", Needs::kClouds, [](const PairInput& pair, Counters* c) {
     std::string error;
@@ -141,7 +122,9 @@ void AddFrontEnd(const Adder& add) {
       Needs::kClouds,
       [](const PairInput& pair, Counters*) {
         ForBoth(pair, [&](const CloudInput& cloud) {
-          return FindByTree(*cloud.tree, pair.options.front_end.fpfh_radius);
+          return FindNeighborhoodsByTree(*cloud.tree,
+                                         pair.options.front_end.fpfh_radius,
+                                         /*num_threads=*/1);
         });
       });
   add("normals/quatro", Needs::kClouds, [](const PairInput& pair, Counters*) {

@@ -290,6 +290,7 @@ TEST(FindNeighborhoods, RowsAreTheBallsAboutEachPoint) {
     for (const double radius : {0.05, 0.1, 1.0, 10.0}) {
       const Neighborhoods rows = FindNeighborhoods(tree, radius, 1);
       ASSERT_EQ(rows.size(), points.cols());
+      ASSERT_TRUE(AreSame(rows, FindNeighborhoodsByTree(tree, radius, 2)));
       for (Eigen::Index i = 0; i < points.cols(); ++i) {
         ASSERT_TRUE(IsRowOf(rows.row(i), tree, i, radius)) << "point " << i;
         ASSERT_THAT(rows.row(i).index, Contains(i));
