@@ -93,6 +93,20 @@ namespace {
 
 constexpr int kMaxInterval = 1'000'000;  // Frames; no drive has as many.
 
+// Noise goes by the noise bound of the methods.
+std::optional<PairSelection> ProblemsOfFlags(std::string* error) {
+  const auto registration = OptionsOfFlags(error);
+  if (!registration) return std::nullopt;
+  FamilyOptions families;
+  families.families = SplitNames(FLAGS_families);
+  families.num_problems = FLAGS_seeds;
+  families.noise_bound = registration->quatro.noise_bound;
+  families.seed = FLAGS_seed;
+  auto selection = SelectProblems(families, error);
+  if (!selection) *error = "--families: " + *error;
+  return selection;
+}
+
 }  // namespace
 
 std::vector<std::string> SplitNames(const std::string& text) {
@@ -162,24 +176,6 @@ std::optional<std::vector<SequenceData>> DrivesOfFlags(std::string* error) {
   return OpenDataset({FLAGS_data, SplitNames(FLAGS_sequences), FLAGS_poses},
                      error);
 }
-
-namespace {
-
-// Noise goes by the noise bound of the methods.
-std::optional<PairSelection> ProblemsOfFlags(std::string* error) {
-  const auto registration = OptionsOfFlags(error);
-  if (!registration) return std::nullopt;
-  FamilyOptions families;
-  families.families = SplitNames(FLAGS_families);
-  families.num_problems = FLAGS_seeds;
-  families.noise_bound = registration->quatro.noise_bound;
-  families.seed = FLAGS_seed;
-  if (families.IsValid(error)) return SelectProblems(families, error);
-  *error = "--families: " + *error;
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::optional<PairSelection> TasksOfFlags(std::string* error) {
   if (FLAGS_protocol == "pairs") {

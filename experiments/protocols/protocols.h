@@ -3,10 +3,15 @@
 // Protocols that register pairs of scans, by name: from the drives of a data
 // set, or a list of pairs, to tasks.
 //
-//   loop      places that a drive comes by again, by distance   Tables I, III
-//   interval  frame i + k onto frame i                          Table II's
-//   pairs yaw       interval pairs with sources turned by 0 .. 180 deg timing
-//   loop pairs, one at a time on one thread pairs     a list
+//   loop: places that a drive comes by again, by distance (Tables I and III)
+//
+//   interval: frame i + k onto frame i (Table II's pairs)
+//
+//   yaw: interval pairs with sources turned by 0 .. 180 deg
+//
+//   timing: loop pairs, one at a time on one thread
+//
+//   pairs: a list
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_PROTOCOLS_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_PROTOCOLS_H_
