@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <memory>
 #include <sstream>
 
 #include "features/parallel.h"
@@ -66,6 +66,7 @@ struct Echo {
 std::vector<double> Hdl64Elevations() {
   constexpr double kDegree = M_PI / 180.0;
   std::vector<double> elevations;
+  elevations.reserve(64);
   for (int i = 0; i < 32; ++i) {
     elevations.push_back((2.0 - i / 3.0) * kDegree);
   }
@@ -134,12 +135,14 @@ std::unique_ptr<LidarScene> LidarScene::Create(const Scene& scene,
                                             sizeof(scene.triangles[0]),
                                             scene.triangles.size());
   if (vertices != nullptr && triangles != nullptr) {
-    std::memcpy(vertices,
-                scene.vertices.data(),
-                scene.vertices.size() * sizeof(scene.vertices[0]));
-    std::memcpy(triangles,
-                scene.triangles.data(),
-                scene.triangles.size() * sizeof(scene.triangles[0]));
+    using Vertex = decltype(scene.vertices)::value_type;
+    using Triangle = decltype(scene.triangles)::value_type;
+    std::uninitialized_copy(scene.vertices.begin(),
+                            scene.vertices.end(),
+                            static_cast<Vertex*>(vertices));
+    std::uninitialized_copy(scene.triangles.begin(),
+                            scene.triangles.end(),
+                            static_cast<Triangle*>(triangles));
     rtcCommitGeometry(geometry);
     result->scene_ = rtcNewScene(device);
     rtcSetSceneFlags(result->scene_, RTC_SCENE_FLAG_ROBUST);

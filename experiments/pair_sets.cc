@@ -170,7 +170,8 @@ std::vector<PairSetOptions> CalibrationSets(uint64_t seed, double scale) {
           std::pair(WorldKind::kSymmetric, 100)}) {
       PairSetOptions set;
       set.world = world;
-      set.num_pairs = std::max(1, static_cast<int>(num_pairs * scale + 0.5));
+      set.num_pairs =
+          std::max(1, static_cast<int>(std::lround(num_pairs * scale)));
       set.seed = seed;
       set.no_overlap = no_overlap;
       if (world == WorldKind::kHill) set.min_distance = 8.0;

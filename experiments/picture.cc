@@ -17,7 +17,7 @@
 #include "features/file.h"
 #include "features/voxel_grid.h"
 
-extern char** environ;
+extern char** environ;  // NOLINT: glibc has declared it, others have not.
 
 namespace quatro {
 namespace {
@@ -34,6 +34,7 @@ bool RunPython(const std::vector<std::string>& args, std::string* error) {
                                       "numpy,matplotlib"};
   command.insert(command.end(), args.begin(), args.end());
   std::vector<char*> argv;
+  argv.reserve(command.size() + 1);
   for (std::string& arg : command) argv.push_back(arg.data());
   argv.push_back(nullptr);
   const pid_t child = fork();

@@ -66,7 +66,7 @@ struct SpatialEdge {
     Quaternion turn = rotation.conjugate().template cast<T>() *
                       (i_from_world * Eigen::Map<const Quaternion>(r_j));
     // q and -q are one rotation; the nearer one counts.
-    const T two = turn.w() < T(0.0) ? T(-2.0) : T(2.0);
+    const T two = turn.w() < T{0.0} ? T{-2.0} : T{2.0};
     Eigen::Matrix<T, 6, 1> error;
     error.template head<3>() =
         i_from_world * step - translation.template cast<T>();

@@ -51,7 +51,7 @@ struct RoadOptions {
   bool IsValid(std::string* error) const;
 };
 
-class Road : public StreetAxis {
+class Road final : public StreetAxis {
  public:
   static constexpr double kSensorHeight = 1.73;  // Above the ground [m].
   static constexpr double kLane = -1.0;          // d of a car that drives [m].

@@ -173,7 +173,7 @@ class HallBuilder {
         contents_(Mix(options.contents_seed) ^ 4) {
     for (const Vector2d& place : options.places) {
       places_.push_back(place);
-      if (options.has_half_turn) places_.push_back(-place);
+      if (options.has_half_turn) places_.emplace_back(-place);
     }
   }
 

@@ -44,7 +44,7 @@ void Scene::AddTriangle(const Vector3d& a,
                         float reflectance) {
   const auto first = static_cast<uint32_t>(vertices.size());
   for (const Vector3d& vertex : {a, b, c}) {
-    vertices.push_back(vertex.cast<float>());
+    vertices.emplace_back(vertex.cast<float>());
   }
   triangles.push_back({first, first + 1, first + 2});
   reflectances.push_back(reflectance);
@@ -57,7 +57,7 @@ void Scene::AddQuad(const Vector3d& a,
                     float reflectance) {
   const auto first = static_cast<uint32_t>(vertices.size());
   for (const Vector3d& vertex : {a, b, c, d}) {
-    vertices.push_back(vertex.cast<float>());
+    vertices.emplace_back(vertex.cast<float>());
   }
   triangles.push_back({first, first + 1, first + 2});
   triangles.push_back({first, first + 2, first + 3});
@@ -212,7 +212,7 @@ void Scene::Append(const Scene& part, const Rigid3& world_from_part) {
   const auto first = static_cast<uint32_t>(vertices.size());
   for (const Eigen::Vector3f& vertex : part.vertices) {
     const Vector3d moved = world_from_part * Vector3d(vertex.cast<double>());
-    vertices.push_back(moved.cast<float>());
+    vertices.emplace_back(moved.cast<float>());
   }
   for (const auto& [a, b, c] : part.triangles) {
     triangles.push_back({first + a, first + b, first + c});
@@ -229,7 +229,7 @@ void Scene::AddSurface(
   const auto first = static_cast<uint32_t>(vertices.size());
   const auto num_vs = static_cast<uint32_t>(vs.size());
   for (const double u : us) {
-    for (const double v : vs) vertices.push_back(point(u, v).cast<float>());
+    for (const double v : vs) vertices.emplace_back(point(u, v).cast<float>());
   }
   for (uint32_t i = 0; i + 1 < us.size(); ++i) {
     for (uint32_t j = 0; j + 1 < num_vs; ++j) {

@@ -12,6 +12,7 @@ constexpr double kDegree = M_PI / 180.0;
 
 std::vector<double> EvenElevations(double top_deg, int num_beams) {
   std::vector<double> elevations;
+  elevations.reserve(static_cast<std::size_t>(num_beams));
   for (int i = 0; i < num_beams; ++i) {
     elevations.push_back(top_deg * (1.0 - 2.0 * i / (num_beams - 1)) * kDegree);
   }

@@ -340,7 +340,7 @@ std::optional<WorldKind> WorldByName(const std::string& name) {
 
 std::vector<std::string> WorldNames() {
   std::vector<std::string> names;
-  for (const auto& [kind, name] : kNames) names.push_back(name);
+  for (const auto& [kind, name] : kNames) names.emplace_back(name);
   return names;
 }
 

@@ -37,7 +37,7 @@ std::optional<Rigid3> ParseRows(const std::vector<std::string_view>& fields,
     }
     rows.data()[i] = *value;
   }
-  const auto rigid = NearestRigid3(rows);
+  auto rigid = NearestRigid3(rows);
   if (!rigid) *reason = "is not a rotation and a translation";
   return rigid;
 }
@@ -101,7 +101,7 @@ std::optional<Rigid3> ReadKittiCalibration(const std::string& path,
     const auto fields = SplitFields(line, " \t");
     if (fields.empty() || (fields[0] != "Tr:" && fields[0] != "Tr")) continue;
     std::string reason;
-    const auto rigid = ParseRows(fields, 1, &reason);
+    auto rigid = ParseRows(fields, 1, &reason);
     if (!rigid) *error = path + ": Tr " + reason;
     return rigid;
   }
@@ -112,6 +112,7 @@ std::optional<Rigid3> ReadKittiCalibration(const std::string& path,
 std::vector<Rigid3> MoveToCam0(const std::vector<Rigid3>& world_from_scan,
                                const Rigid3& cam0_from_lidar) {
   std::vector<Rigid3> poses;
+  poses.reserve(world_from_scan.size());
   for (const Rigid3& pose : world_from_scan) {
     poses.push_back(cam0_from_lidar * pose * Inverse(cam0_from_lidar));
   }

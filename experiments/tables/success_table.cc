@@ -68,7 +68,7 @@ Table MakeSuccessTable(const std::vector<PairResult>& results,
                        const std::vector<PublishedRate>& published) {
   std::vector<std::string> columns = SetsOf(results);
   const std::size_t num_sets = columns.size();
-  if (num_sets > 1) columns.push_back(kAll);
+  if (num_sets > 1) columns.emplace_back(kAll);
   Table table;
   table.columns = {"method", "origin"};
   for (const std::string& column : columns) {

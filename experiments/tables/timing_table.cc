@@ -67,8 +67,8 @@ Table MakeTimingTable(const std::vector<PairResult>& results,
   for (const std::string& stage : stages) {
     table.columns.push_back("stage ms / " + stage);
   }
-  table.columns.push_back("sum ms / front end");
-  table.columns.push_back("sum ms / rest");
+  table.columns.emplace_back("sum ms / front end");
+  table.columns.emplace_back("sum ms / rest");
   AddColumns("sum ms / total", options, &table.columns);
   for (const std::string& method : MethodsOf(results)) {
     std::vector<PairResult> timed;
