@@ -87,6 +87,12 @@ std::string Note(const Json& report, const std::string& stage) {
   return note.is_string() ? "; " + note.get<std::string>() : "";
 }
 
+// Not so with a method that takes the clouds alone.
+bool HasMatches(const Json& report) {
+  const Json counts = At(report, {"counts"});
+  return counts.contains("mutual_matches") || !counts.contains("source_voxels");
+}
+
 std::string ExplainFrontEnd(const Json& report) {
   const Json counts = At(report, {"counts"});
   if (!counts.contains("source_voxels")) return "";
@@ -106,6 +112,7 @@ std::string ExplainFrontEnd(const Json& report) {
           " means in voxels of " + parameter("voxel_size") +
           " m are kept, of the target's " + Number(counts["target_points"]) +
           dropped("target_dropped") + " " + Number(counts["target_voxels"]));
+  if (!HasMatches(report)) return text;
   text += Paragraph("features",
                     "normals within " + parameter("normal_radius") +
                         " m, FPFH within " + parameter("fpfh_radius") + " m");
@@ -120,11 +127,14 @@ std::string ExplainFrontEnd(const Json& report) {
 
 std::string ExplainSolver(const Json& report) {
   const Json counts = At(report, {"counts"});
-  std::string text = Paragraph(
-      "consensus",
-      Number(counts["clique"]) + " of " + Number(counts["correspondences"]) +
-          " distinct matches are consistent with each other" +
-          ByChance(report, "clique"));
+  std::string text;
+  if (HasMatches(report)) {
+    text += Paragraph("consensus",
+                      Number(counts["clique"]) + " of " +
+                          Number(counts["correspondences"]) +
+                          " distinct matches are consistent with each other" +
+                          ByChance(report, "clique"));
+  }
   if (NumberOr(counts["tims"], 0.0) > 0.0) {
     text +=
         Paragraph("rotation",
@@ -143,7 +153,7 @@ std::string ExplainSolver(const Json& report) {
                   " above the optimum, of cost " +
                   Number(report["certificate"]["optimal_cost"]));
   }
-  if (!At(report, {"target_from_source"}).is_null()) {
+  if (HasMatches(report) && !At(report, {"target_from_source"}).is_null()) {
     text += Paragraph("translation",
                       Number(counts["translation_inliers"]) +
                           " matches are within the noise bound of " +
@@ -220,13 +230,23 @@ std::vector<std::string> Advice(const Json& report) {
         "there are few matches: larger radii (--fpfh_radius of five voxels and "
         "more, --normal_radius of three), smaller voxels (--voxel_size), or "
         "--preset=auto, which looks at the density of the scans");
-    if (num_mutual >= 10.0 * num_matches) {
+    if (num_mutual > 0.0 && num_mutual >= 10.0 * num_matches) {
       advice.emplace_back(
           "the tuple test left less than a tenth of the matches: descriptors "
           "tell little here, or the scans share little");
     }
   }
-  if (report["status"] == "insufficient") {
+  if (!HasMatches(report)) {
+    if (report["status"] == "insufficient") {
+      advice.emplace_back(
+          "too little of one scan is near the other: a method with matches "
+          "first, this one as its --refine");
+    } else if (report["status"] == "degenerate") {
+      advice.emplace_back(
+          "the surfaces do not hold the pose: scans of more than one wall, a "
+          "smaller --voxel_size, or odometry for what is not held");
+    }
+  } else if (report["status"] == "insufficient") {
     advice.emplace_back(
         "too few matches are consistent with each other: a larger "
         "--noise_bound, or matches with fewer outliers");

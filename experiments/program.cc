@@ -84,7 +84,7 @@ std::optional<int> ParseFlags(const std::string& usage,
                               const std::string& main_file,
                               int argc,
                               char** argv) {
-  gflags::SetUsageMessage(usage + " With 3, too, if memory runs out.");
+  gflags::SetUsageMessage(usage + " Exits with 3 if memory runs out.");
   GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::exit(kExitBadInput); };
   gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
   if (FLAGS_version) {

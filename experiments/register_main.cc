@@ -240,8 +240,10 @@ int Main(int argc, char** argv) {
                    {"source_voxels", summary.num_source_voxels},
                    {"target_points", target->points.cols()},
                    {"target_dropped", target->num_dropped},
-                   {"target_voxels", summary.num_target_voxels},
-                   {"mutual_matches", summary.num_mutual_matches}});
+                   {"target_voxels", summary.num_target_voxels}});
+  if (!cloud_solver) {
+    report["counts"]["mutual_matches"] = summary.num_mutual_matches;
+  }
   report["structure_hold"] = quatro::Describe(summary.structure_hold);
   report["refinement"] = quatro::DescribeRefinement(summary.refinement);
   report["parameters"] = {{"source", FLAGS_source},

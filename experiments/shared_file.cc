@@ -13,8 +13,10 @@ fs::path FindSharedFile(const std::string& name) {
   std::error_code ignored;
   const fs::path bin =
       fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& folder :
-       {bin / "../share/quatro", bin / "../../experiments"}) {
+  // The last is for programs that others build with ours.
+  for (const fs::path& folder : {bin / "../share/quatro",
+                                 bin / "../../experiments",
+                                 fs::path(QUATRO_BUILT_SHARE)}) {
     if (fs::exists(folder / name, ignored)) return folder / name;
   }
   return fs::path(QUATRO_SCRIPTS) / name;

@@ -113,11 +113,20 @@ Registration RegisterClouds(const py::object& source,
                             const std::string& method_name,
                             const py::kwargs& options) {
   const Method& method = FindMethod(method_name);
-  const PointCloud source_cloud = MakeCloud(PointsArgument(source, "source"));
-  const PointCloud target_cloud = MakeCloud(PointsArgument(target, "target"));
+  const PointsArgument source_points(source, "source");
+  const PointsArgument target_points(target, "target");
+  PointCloud source_cloud;
+  PointCloud target_cloud;
+  RegistrationOptions chosen;
+  if (preset != "auto") chosen = FindPreset(preset, "auto");
+  {
+    const py::gil_scoped_release release;
+    source_cloud = MakeCloud(source_points);
+    target_cloud = MakeCloud(target_points);
+    if (preset == "auto") chosen = MakeAutoOptions(source_cloud, target_cloud);
+  }
   Given given;
-  given.Set(preset == "auto" ? MakeAutoOptions(source_cloud, target_cloud)
-                             : FindPreset(preset, "auto"));
+  given.Set(chosen);
   given.Read(method, true, options, "register");
   given.registration.solver = method.make(given.estimator);
 
@@ -256,7 +265,10 @@ Alignment AlignClouds(const py::object& source,
 
 py::array ReadPoints(const py::object& path) {
   const auto name =
-      py::module_::import("os").attr("fspath")(path).cast<std::string>();
+      py::module_::import("os").attr("fsencode")(path).cast<std::string>();
+  if (name.find('\0') != std::string::npos) {
+    throw py::value_error("embedded null byte");
+  }
   std::string error;
   std::optional<PointCloud> cloud;
   {

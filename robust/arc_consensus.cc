@@ -3,8 +3,6 @@
 
 #include "robust/arc_consensus.h"
 
-#include <glog/logging.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -18,6 +16,7 @@
 #include "robust/tims.h"
 #include "solvers/exact_yaw.h"
 #include "solvers/translation.h"
+#include "solvers/valid_matches.h"
 #include "solvers/yaw_translation.h"
 
 namespace quatro {
@@ -99,12 +98,10 @@ bool ArcConsensusOptions::IsValid(std::string* error) const {
 PoseSummary SolveArcConsensus(const PointsRef& source,
                               const PointsRef& target,
                               const ArcConsensusOptions& options) {
-  CHECK_EQ(source.cols(), target.cols());
   PoseSummary summary;
   summary.num_needed = 2;
-  if (!options.IsValid(&summary.message)) return summary;
-  if (!source.allFinite() || !target.allFinite()) {
-    summary.message = "a matched point is not finite";
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
     return summary;
   }
 

@@ -18,6 +18,7 @@
 #include "robust/held_rotation.h"
 #include "robust/surrogate.h"
 #include "solvers/rotation.h"
+#include "solvers/valid_matches.h"
 
 namespace quatro {
 namespace {
@@ -135,12 +136,10 @@ Rigid3 ComposeLeft(const Eigen::Matrix<double, 6, 1>& xi,
 FgrSummary SolveFgr(const PointsRef& source,
                     const PointsRef& target,
                     const FgrOptions& options) {
-  CHECK_EQ(source.cols(), target.cols());
   FgrSummary summary;
   summary.num_needed = kNumNeeded;
-  if (!options.IsValid(&summary.message)) return summary;
-  if (!source.allFinite() || !target.allFinite()) {
-    summary.message = "a matched point is not finite";
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
     return summary;
   }
 

@@ -3,8 +3,6 @@
 
 #include "robust/ins.h"
 
-#include <glog/logging.h>
-
 #include <array>
 #include <cmath>
 #include <optional>
@@ -16,6 +14,7 @@
 #include "robust/consensus.h"
 #include "robust/distinct_matches.h"
 #include "solvers/ins_refinement.h"
+#include "solvers/valid_matches.h"
 
 namespace quatro {
 namespace {
@@ -128,9 +127,8 @@ Summary SolveInLevelFrames(const PointsRef& source,
                            const Solve& solve,
                            double noise_bound,
                            const InsOptions& ins) {
-  CHECK_EQ(source.cols(), target.cols());
   std::string error;
-  if (!ins.IsValid(&error)) {
+  if (!ins.IsValid(&error) || !AreValidMatches(source, target, &error)) {
     Summary summary;
     summary.message = error;
     return summary;

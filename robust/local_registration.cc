@@ -126,6 +126,10 @@ RegistrationSummary RegisterBy(const PointCloud& source,
                         by,
                         finish_stage);
   const AlignmentSummary& alignment = refinement.alignment;
+  if (alignment.termination == AlignmentTermination::kInvalidInput) {
+    summary.error = alignment.message;
+    return summary;
+  }
   refinement.message = alignment.message;
   refinement.unrefined_target_from_source = initial_target_from_source;
   refinement.target_from_source = initial_target_from_source;

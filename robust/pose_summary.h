@@ -105,7 +105,8 @@ struct PoseSummary {
   }
 };
 
-// Any estimator; its options are its own.
+// Any estimator; its options are its own. Columns that it tells are in [0, N)
+// of the N matches, and in ascending order.
 using PoseSolver = std::function<PoseSummary(const PointsRef& source,
                                              const PointsRef& target)>;
 

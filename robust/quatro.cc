@@ -3,8 +3,6 @@
 
 #include "robust/quatro.h"
 
-#include <glog/logging.h>
-
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -18,6 +16,7 @@
 #include "robust/surrogate.h"
 #include "solvers/exact_yaw.h"
 #include "solvers/translation.h"
+#include "solvers/valid_matches.h"
 
 namespace quatro {
 namespace {
@@ -160,12 +159,10 @@ bool QuatroOptions::IsValid(std::string* error) const {
 QuatroSummary SolveQuatro(const PointsRef& source,
                           const PointsRef& target,
                           const QuatroOptions& options) {
-  CHECK_EQ(source.cols(), target.cols());
   QuatroSummary summary;
   summary.num_needed = kNumNeeded;
-  if (!options.IsValid(&summary.message)) return summary;
-  if (!source.allFinite() || !target.allFinite()) {
-    summary.message = "a matched point is not finite";
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
     return summary;
   }
 

@@ -3,8 +3,6 @@
 
 #include "robust/ransac.h"
 
-#include <glog/logging.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +18,7 @@
 #include "robust/held_rotation.h"
 #include "robust/match_scorer.h"
 #include "solvers/rotation.h"
+#include "solvers/valid_matches.h"
 #include "solvers/yaw_translation.h"
 
 namespace quatro {
@@ -262,15 +261,13 @@ RansacSummary SolveRansac(const PointsRef& source,
                           const PointsRef& target,
                           const RansacOptions& options,
                           const MatchedNormals* normals) {
-  CHECK_EQ(source.cols(), target.cols());
   const MinimalSample sample = options.minimal.sample;
   const int num_needed = SampleSize(sample);
   const double bound = options.minimal.noise_bound;
   RansacSummary summary;
   summary.num_needed = num_needed;
-  if (!options.IsValid(&summary.message)) return summary;
-  if (!source.allFinite() || !target.allFinite()) {
-    summary.message = "a matched point is not finite";
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
     return summary;
   }
   if (sample != MinimalSample::kPointAndNormal) {
@@ -279,8 +276,11 @@ RansacSummary SolveRansac(const PointsRef& source,
     summary.message = "samples of a point and its normal need normals";
     return summary;
   } else {
-    CHECK_EQ(normals->source.cols(), source.cols());
-    CHECK_EQ(normals->target.cols(), target.cols());
+    if (normals->source.cols() != source.cols() ||
+        normals->target.cols() != target.cols()) {
+      summary.message = "there are not as many normals as matches";
+      return summary;
+    }
     if (!normals->source.allFinite() || !normals->target.allFinite()) {
       summary.message = "a normal is not finite";
       return summary;

@@ -3,8 +3,6 @@
 
 #include "robust/teaser.h"
 
-#include <glog/logging.h>
-
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -15,6 +13,7 @@
 #include "robust/so3.h"
 #include "robust/surrogate.h"
 #include "solvers/translation.h"
+#include "solvers/valid_matches.h"
 
 namespace quatro {
 namespace {
@@ -71,12 +70,10 @@ bool TeaserOptions::IsValid(std::string* error) const {
 TeaserSummary SolveTeaser(const PointsRef& source,
                           const PointsRef& target,
                           const TeaserOptions& options) {
-  CHECK_EQ(source.cols(), target.cols());
   TeaserSummary summary;
   summary.num_needed = kNumNeeded;
-  if (!options.IsValid(&summary.message)) return summary;
-  if (!source.allFinite() || !target.allFinite()) {
-    summary.message = "a matched point is not finite";
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
     return summary;
   }
 

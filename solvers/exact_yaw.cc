@@ -149,6 +149,10 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
   CHECK_EQ(source.cols(), target.cols());
   CHECK_EQ(source.cols(), weights.size());
   CHECK_EQ(source.cols(), noise_bounds.size());
+  if (!source.allFinite() || !target.allFinite() || !weights.allFinite() ||
+      !noise_bounds.allFinite()) {
+    return std::nullopt;
+  }
 
   std::vector<Arc> arcs;
   std::vector<End> ends;

@@ -40,8 +40,8 @@ struct ExactYawEstimate {
 
 // `noise_bounds` holds c_k > 0 [m]; sizes must agree. Nullopt if no yaw makes
 // an inlier of a measurement that depends on it: none given, no weight, all of
-// them vertical, or no two lengths that agree. Of equal minima the first
-// counter-clockwise from -pi.
+// them vertical, or no two lengths that agree; and if anything is not finite.
+// Of equal minima the first counter-clockwise from -pi.
 std::optional<ExactYawEstimate> EstimateExactYaw(
     const PointsRef& source,
     const PointsRef& target,

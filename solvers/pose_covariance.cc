@@ -5,7 +5,6 @@
 
 #include <ceres/covariance.h>
 #include <ceres/problem.h>
-#include <glog/logging.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "solvers/centroid.h"
 #include "solvers/ceres_residuals.h"
 #include "solvers/gravity.h"
+#include "solvers/valid_matches.h"
 
 namespace quatro {
 namespace {
@@ -328,12 +328,13 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
                                      const PointsRef& target,
                                      const Rigid3& target_from_source,
                                      const PoseCovarianceOptions& options) {
-  CHECK_EQ(source.cols(), target.cols());
   PoseCovariance result;
-  if (!options.IsValid(&result.message)) return result;
-  if (!source.allFinite() || !target.allFinite() ||
-      !target_from_source.ToMatrix().allFinite()) {
-    result.message = "a matched point or the pose is not finite";
+  if (!options.IsValid(&result.message) ||
+      !AreValidMatches(source, target, &result.message)) {
+    return result;
+  }
+  if (!target_from_source.ToMatrix().allFinite()) {
+    result.message = "the pose is not finite";
     return result;
   }
   const Eigen::Matrix3d& R = target_from_source.rotation;

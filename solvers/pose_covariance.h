@@ -109,8 +109,8 @@ struct PoseCovariance {
 };
 
 // Column i of `source` is matched with column i of `target` [m]; all are taken
-// to be right. Never fails but for what is not finite and for options out of
-// range: the message says so.
+// to be right. Never fails but for sizes that differ, for what is not finite
+// and for options out of range: the message says so.
 PoseCovariance ComputePoseCovariance(const PointsRef& source,
                                      const PointsRef& target,
                                      const Rigid3& target_from_source,

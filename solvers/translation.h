@@ -33,7 +33,8 @@ struct ConsensusEstimate {
 };
 
 // (1) for one axis. `bounds` are > 0, as many as `values`, and the largest no
-// more than 1e8 times the smallest. Nullopt if there are none.
+// more than 1e8 times the smallest; all must be finite. Nullopt if there are
+// none.
 std::optional<ConsensusEstimate> EstimateConsensus(
     const Eigen::Ref<const Eigen::VectorXd>& values,
     const Eigen::Ref<const Eigen::VectorXd>& bounds);
@@ -46,7 +47,7 @@ struct TranslationEstimate {
 };
 
 // `rotated_source` holds R p_i; `noise_bound` [m] is the b of all matches and
-// axes. Nullopt if there are no matches.
+// axes, > 0; all must be finite. Nullopt if there are no matches.
 std::optional<TranslationEstimate> EstimateTranslation(
     const PointsRef& rotated_source,
     const PointsRef& target,

@@ -17,7 +17,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ['robust/verdict.cc', 'robust/quatro.cc', 'robust/teaser.cc', 'robust/fgr.cc',
            'robust/ransac.cc', 'robust/arc_consensus.cc', 'robust/polish.cc', 'robust/refinement.cc',
            'robust/ins.cc', 'robust/local_registration.cc', 'robust/gnc.cc', 'robust/front_end.cc',
-           'robust/registration.cc', 'solvers/held_directions.cc', 'solvers/local_alignment.cc',
+           'robust/registration.cc', 'solvers/valid_matches.cc', 'solvers/pose_covariance.cc',
+           'solvers/held_directions.cc', 'solvers/local_alignment.cc',
            'solvers/vgicp.cc', 'features/voxel_grid.cc', 'experiments/explain.cc']
 LITERAL = re.compile(r'"((?:\\.|[^"\\])*)"')
 

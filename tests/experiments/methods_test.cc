@@ -40,6 +40,18 @@ void ExpectSameBits(const PoseSummary& a, const PoseSummary& b) {
   EXPECT_EQ(a.target_from_source->ToMatrix(), b.target_from_source->ToMatrix());
 }
 
+TEST(Methods, EachTellsSizesThatDiffer) {
+  MatchedProblem problem = MakeOutlierProblem(50, 0.5, 0.05, 1);
+  problem.target.conservativeResize(3, 10);
+  for (const std::string& name : MethodNames()) {
+    const PoseSummary summary = Solve(name, problem);
+    EXPECT_EQ(summary.termination, PoseTermination::kInvalidInput) << name;
+    EXPECT_EQ(summary.message,
+              "50 source points are matched with 10 target points")
+        << name;
+  }
+}
+
 TEST(Methods, AllNamesResolveAndSolve) {
   EXPECT_THAT(MethodNames(),
               IsSupersetOf({"auto",

@@ -29,6 +29,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 struct Box {
@@ -377,6 +378,11 @@ TEST_F(RegisterProgramTest, LocalMethodsDoNotVouchForWhatTheyFind) {
     const ProgramRun run = Register({"--method=" + method});
     EXPECT_EQ(run.exit_code, 1) << run.err;
     EXPECT_EQ(json::parse(run.out)["refinement"]["method"], method);
+    EXPECT_FALSE(json::parse(run.out)["counts"].contains("mutual_matches"));
+    const ProgramRun explained = Register({"--method=" + method, "--explain"});
+    for (const char* of_matches : {"FPFH", "consensus", "matches:", "radii"}) {
+      EXPECT_THAT(explained.err + explained.out, Not(HasSubstr(of_matches)));
+    }
     ExpectBadInput("quatro_register",
                    {"--source=" + PathOf("source.ply"),
                     "--target=" + PathOf("target.ply"),

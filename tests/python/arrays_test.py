@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What goes in, in which layouts, and what comes out."""
 
+import os
 import tracemalloc
 
 import numpy as np
@@ -140,6 +141,16 @@ def test_files_are_read_into_an_array_of_its_own(tmp_path):
     assert np.array_equal(cloud, np.delete(points, 7, axis=0))
     with pytest.raises(ValueError, match='none.ply'):
         quatro.read_cloud(str(tmp_path / 'none.ply'))
+
+
+def test_names_of_files_may_be_any_but_for_nul(tmp_path):
+    points = np.zeros((2, 4), np.float32)
+    name = os.fsencode(tmp_path) + b'/latin\xff.bin'
+    with open(name, 'wb') as file:
+        points.tofile(file)
+    assert len(quatro.read_cloud(name)) == len(quatro.read_cloud(os.fsdecode(name))) == 2
+    with pytest.raises(ValueError, match='null byte'):
+        quatro.read_cloud(os.fsdecode(name) + '\0.bin')
 
 
 def test_open3d_clouds():

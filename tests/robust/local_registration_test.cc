@@ -98,6 +98,10 @@ TEST(RegisterLocally, BadInputIsAnError) {
               HasSubstr("target has no points"));
   EXPECT_THAT(RegisterLocally(street, street, Rigid3(), {}).error,
               HasSubstr("refinement.method is none"));
+  Rigid3 nowhere;
+  nowhere.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(RegisterLocally(street, street, nowhere, gicp).error,
+              HasSubstr("initial pose is not finite"));
   RegistrationOptions bad = gicp;
   bad.front_end.voxel_size = 0.0;
   EXPECT_THAT(RegisterLocally(street, street, Rigid3(), bad).error,

@@ -572,6 +572,20 @@ TEST(ExactYaw, LengthsWhoseSquaresOverflowAreLeftOut) {
   }
 }
 
+TEST(ExactYaw, DoesNotAnswerToNaN) {
+  const Problem problem = RandomProblem(20, 1.0, 10.0, /*seed=*/1);
+  ASSERT_TRUE(problem.Solve().has_value());
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (int which = 0; which < 4; ++which) {
+    Problem broken = problem;
+    if (which == 0) broken.source(0, 3) = kNaN;
+    if (which == 1) broken.target(1, 3) = kNaN;
+    if (which == 2) broken.weights[3] = kNaN;
+    if (which == 3) broken.bounds[3] = kNaN;
+    EXPECT_FALSE(broken.Solve().has_value()) << which;
+  }
+}
+
 TEST(TruncatedYawCost, ByHand) {
   // Turned a quarter: off by 0, by 1 of 2 and by 5 of 2.
   Points source(3, 3);
