@@ -33,8 +33,8 @@ def sensor_rows():
     """Preset and the four lengths of each sensor that one is advised for."""
     for line in (ROOT / 'docs/parameters.md').read_text().splitlines():
         cells = [cell.strip() for cell in line.strip('|').split('|')]
-        if len(cells) == 8 and cells[7].startswith('`--preset=') and cells[3]:
-            yield re.match(r'`--preset=(\w+)', cells[7]).group(1), cells[3:7]
+        if len(cells) == 8 and cells[3].startswith('`--preset=') and cells[4]:
+            yield re.match(r'`--preset=(\w+)', cells[3]).group(1), cells[4:8]
 
 
 def in_metres(size, voxel_size):
