@@ -3,6 +3,7 @@
 
 #include "experiments/matches_csv.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -16,7 +17,7 @@
 namespace quatro {
 namespace {
 
-constexpr std::array<const char*, 6> kNames = {
+constexpr std::array<std::string_view, 6> kNames = {
     "sx", "sy", "sz", "tx", "ty", "tz"};
 constexpr std::size_t kMaxQuoted = 40;
 
@@ -90,13 +91,18 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
                " columns, must have 6: sx,sy,sz,tx,ty,tz";
       return std::nullopt;
     }
-    const bool is_names = is_first && !ParseNumber(fields.front());
+    const bool is_names =
+        is_first && std::ranges::find(kNames, fields.front()) != kNames.end();
     is_first = false;
-    if (is_names && fields.front() == kNames.front()) continue;
+    if (is_names && std::ranges::equal(fields, kNames)) continue;
+    if (is_names) {
+      *error = where + ": names of columns must be sx,sy,sz,tx,ty,tz in order";
+      return std::nullopt;
+    }
     for (std::size_t column = 0; column < kNames.size(); ++column) {
       const std::optional<double> value = ParseNumber(fields[column]);
       if (!value || !std::isfinite(*value)) {
-        *error = where + ", column " + kNames[column] + ": " +
+        *error = where + ", column " + std::string(kNames[column]) + ": " +
                  Quoted(fields[column]) +
                  (value ? " is not finite" : " is not a number");
         return std::nullopt;

@@ -67,6 +67,15 @@ TEST_F(MatchesCsvTest, NamesAloneAreNoMatches) {
   EXPECT_EQ(matches->target.cols(), 0);
 }
 
+TEST_F(MatchesCsvTest, RefusesNamesInAnotherOrder) {
+  const std::string why =
+      "line 1: names of columns must be sx,sy,sz,tx,ty,tz in order";
+  EXPECT_EQ(ErrorOf("sx,sz,sy,tx,tz,ty\n1,2,3,4,5,6\n"), why);
+  EXPECT_EQ(ErrorOf("tx ty tz sx sy sz\n1 2 3 4 5 6\n"), why);
+  EXPECT_EQ(ErrorOf("sx,sy,sz,tx,ty,weight\n1,2,3,4,5,6\n"), why);
+  ExpectTwoMatches(" sx , sy,sz\t,tx,ty,tz \r\n1,2,3.5,4,5,6\n-7,8,9e3,1,2,3");
+}
+
 TEST_F(MatchesCsvTest, RefusesAnEmptyFile) {
   EXPECT_EQ(ErrorOf(""), "is empty; expected lines of sx,sy,sz,tx,ty,tz");
 }
