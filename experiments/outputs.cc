@@ -7,6 +7,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
+#include <memory>
 #include <system_error>
 
 #include "features/file.h"
@@ -62,24 +64,28 @@ bool CanWriteAll(const std::vector<std::string>& outputs,
   return true;
 }
 
+bool FlushOutput(std::string* error) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) {
+    return true;
+  }
+  *error = "standard output: could not be written";
+  return false;
+}
+
 bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error) {
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const auto& [path, bytes] = files[i];
-    bool is_written = false;
-    if (path.empty()) {
-      is_written =
-          std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
-          std::fflush(stdout) == 0;
-      if (!is_written) *error = "standard output: could not be written";
-    } else {
-      is_written = WriteFileAtomically(path, bytes, error);
-    }
-    if (is_written) continue;
-    for (std::size_t j = 0; j < i; ++j) {
-      std::error_code ignored;
-      if (!files[j].path.empty()) fs::remove(files[j].path, ignored);
-    }
-    return false;
+  std::vector<std::unique_ptr<PendingFile>> pending;
+  for (const auto& [path, bytes] : files) {
+    if (path.empty()) continue;
+    pending.push_back(PendingFile::Write(path, bytes, error));
+    if (!pending.back()) return false;
+  }
+  for (const auto& [path, bytes] : files) {
+    if (path.empty()) std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+  }
+  if (!FlushOutput(error)) return false;
+  for (const auto& file : pending) {
+    if (!file->Rename(error)) return false;
   }
   return true;
 }

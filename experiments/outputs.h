@@ -24,8 +24,12 @@ bool CanWriteAll(const std::vector<std::string>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error);
 
-// Writes them in order, each whole or not at all. At the first that can't be
-// written removes those before it and returns false.
+// Returns false and sets *error if anything printed so far did not arrive.
+bool FlushOutput(std::string* error);
+
+// Writes them, each whole or not at all. If one can't be written, or what was
+// printed before, returns false, and all files are as they were; only if a
+// folder changes meanwhile may some be new.
 bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error);
 
 }  // namespace quatro

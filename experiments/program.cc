@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "experiments/one_line.h"
+#include "experiments/outputs.h"
 #include "experiments/progress_line.h"
 
 DECLARE_bool(help);
@@ -73,7 +74,11 @@ int RunProgram(const std::function<int(int argc, char** argv)>& run,
                char** argv) {
   std::set_terminate(EndOrderly);
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    const bool has_answer =
+        exit_code == kExitDone || exit_code == kExitNotVouchedFor;
+    std::string error;
+    return has_answer && !FlushOutput(&error) ? Fail(error) : exit_code;
   } catch (const std::exception&) {
     TellException();
   }

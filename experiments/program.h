@@ -21,7 +21,8 @@ enum ExitCode {
 
 // The whole of a program: run(argc, argv) gives its exit code. Where there is
 // not enough memory for it, one line on stderr says so, and the exit code is
-// kExitStopped; so for all else that a library throws.
+// kExitStopped; so for all else that a library throws. Where standard output
+// could not be written, one line says that, and the exit code is kExitBadInput.
 int RunProgram(const std::function<int(int argc, char** argv)>& run,
                int argc,
                char** argv);

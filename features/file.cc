@@ -110,22 +110,43 @@ std::optional<std::string> ReadWholeFile(const std::string& path,
   return bytes;
 }
 
-bool WriteFileAtomically(const std::string& path,
-                         std::string_view bytes,
-                         std::string* error) {
+std::unique_ptr<PendingFile> PendingFile::Write(const std::string& path,
+                                                std::string_view bytes,
+                                                std::string* error) {
   std::string temporary;
   FileDescriptor file(CreateTemporary(path, &temporary));
   if (file.get() < 0) {
     *error = SystemError(path, "cannot create");
-    return false;
+    return nullptr;
   }
-  if (!WriteAll(file.get(), bytes) || !file.Close() ||
-      std::rename(temporary.c_str(), path.c_str()) != 0) {
+  std::unique_ptr<PendingFile> pending(new PendingFile);
+  pending->path_ = path;
+  pending->temporary_ = temporary;
+  if (!WriteAll(file.get(), bytes) || !file.Close()) {
     *error = SystemError(path, "cannot write");
-    unlink(temporary.c_str());
+    return nullptr;
+  }
+  return pending;
+}
+
+PendingFile::~PendingFile() {
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+bool PendingFile::Rename(std::string* error) {
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    *error = SystemError(path_, "cannot write");
     return false;
   }
+  temporary_.clear();
   return true;
+}
+
+bool WriteFileAtomically(const std::string& path,
+                         std::string_view bytes,
+                         std::string* error) {
+  const auto pending = PendingFile::Write(path, bytes, error);
+  return pending && pending->Rename(error);
 }
 
 void RemoveTemporaries(const std::string& folder) {

@@ -5,6 +5,7 @@
 #ifndef QUATRO_FEATURES_FILE_H_
 #define QUATRO_FEATURES_FILE_H_
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,9 +17,29 @@ namespace quatro {
 std::optional<std::string> ReadWholeFile(const std::string& path,
                                          std::string* error);
 
-// Writes `path`.tmp.<process>.<number>, flushes it to the disk and renames it
-// to `path`, which thus holds its old content or all of the new one. On failure
-// removes what it wrote, sets *error and returns false.
+// `path`.tmp.<process>.<number>, flushed to the disk; removed with this object
+// unless it was renamed to `path`.
+class PendingFile {
+ public:
+  // Returns a nullptr and sets *error if it can't be written.
+  static std::unique_ptr<PendingFile> Write(const std::string& path,
+                                            std::string_view bytes,
+                                            std::string* error);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  bool Rename(std::string* error);
+
+ private:
+  PendingFile() = default;
+
+  std::string path_, temporary_;  // The latter empty: there is none.
+};
+
+// Writes a PendingFile and renames it to `path`, which thus holds its old
+// content or all of the new one. On failure removes what it wrote, sets *error
+// and returns false.
 bool WriteFileAtomically(const std::string& path,
                          std::string_view bytes,
                          std::string* error);

@@ -136,6 +136,14 @@ TEST_F(PoseGraphProgramTest, BadFilesAreRefused) {
                  "also an input");
 }
 
+TEST_F(PoseGraphProgramTest, FullOutputIsToldAndLeavesFilesAlone) {
+  ExpectFullOutputTold("quatro_pose_graph",
+                       {"--poses=50",
+                        "--loops=10",
+                        "--output=" + Write("old.g2o", "old"),
+                        "--world_output=" + PathOf("world.g2o")});
+}
+
 class FitLineProgramTest : public ProgramTest {};
 
 TEST_F(FitLineProgramTest, FindsTheLineAmongSeventyPercentOutliers) {
@@ -155,6 +163,11 @@ TEST_F(FitLineProgramTest, FindsTheLineAmongSeventyPercentOutliers) {
     EXPECT_NEAR(b, 1.0, 0.1);
     EXPECT_GT(std::abs(plain_b - 1.0), 1.0);
   }
+}
+
+TEST_F(FitLineProgramTest, FullOutputIsTold) {
+  ExpectFullOutputTold("quatro_fit_line", {});
+  ExpectFullOutputTold("quatro_fit_line", {"--help"});
 }
 
 TEST_F(FitLineProgramTest, BadFlagsAreRefused) {

@@ -231,6 +231,16 @@ TEST_F(SolveProgramTest, PictureIntoAMissingFolder) {
                     "there is no folder");
 }
 
+TEST_F(SolveProgramTest, FullOutputIsToldAndLeavesFilesAlone) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(20, 1).matches);
+  ExpectFullOutputTold("quatro_solve", {"--correspondences=" + path});
+  ExpectFullOutputTold("quatro_solve", {"--list_methods"});
+  ExpectFullOutputTold("quatro_solve",
+                       {"--correspondences=" + path,
+                        "--json=" + Write("old.json", "old"),
+                        "--explain"});
+}
+
 // Too little to go by
 
 TEST_F(SolveProgramTest, NoMatchesAreInsufficient) {

@@ -39,16 +39,18 @@ inline std::string ReadFromStart(std::FILE* file) {
   return bytes;
 }
 
-// bin/<name> of the build.
+// bin/<name> of the build. With `out_path` its output goes there.
 inline ProgramRun RunProgram(const std::string& name,
-                             const std::vector<std::string>& args) {
+                             const std::vector<std::string>& args,
+                             const char* out_path = nullptr) {
   std::vector<std::string> command = {std::string(QUATRO_BIN_DIR) + "/" + name};
   command.insert(command.end(), args.begin(), args.end());
   std::vector<char*> argv;
   for (std::string& arg : command) argv.push_back(arg.data());
   argv.push_back(nullptr);
 
-  std::FILE* const out = std::tmpfile();
+  std::FILE* const out =
+      out_path == nullptr ? std::tmpfile() : std::fopen(out_path, "w");
   std::FILE* const err = std::tmpfile();
   ProgramRun run;
   const pid_t child = fork();
@@ -119,6 +121,20 @@ class ProgramTest : public ::testing::Test {
       contents[name] = entry.is_regular_file() ? Read(name) : "";
     }
     return contents;
+  }
+
+  // Standard output on a full disk is told in one last line, and files are as
+  // they were.
+  void ExpectFullOutputTold(const std::string& program,
+                            const std::vector<std::string>& args) const {
+    const auto before = Contents();
+    const ProgramRun run = RunProgram(program, args, "/dev/full");
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    const std::string line =
+        program + ": standard output: could not be written\n";
+    EXPECT_THAT(run.err, ::testing::EndsWith(line));
+    EXPECT_EQ(run.err.find(line), run.err.size() - line.size()) << run.err;
+    EXPECT_EQ(Contents(), before);
   }
 
   // Exit code 2, one line on stderr that names `what` is wrong and `why`,
