@@ -50,23 +50,25 @@ constexpr char kUsage[] =
     "Exits with 0 when done; 2 if a flag or a file is wrong.";
 
 constexpr int kMaxSize = 10'000'000;
+constexpr int kMaxRepetitions = 100'000;
 
 bool IsOfBenchmark(std::string_view arg) {
   const auto begin = arg.find_first_not_of('-');
   return begin != arg.npos && arg.substr(begin).starts_with("benchmark_");
 }
 
-// The value of --benchmark_`name`=..., empty without one.
+// The value of --benchmark_`name`=..., the last as it counts; empty without one.
 std::string BenchmarkFlag(const std::vector<std::string>& args,
                           const std::string& name) {
+  std::string value;
   for (const std::string& arg : args) {
     const auto equals = arg.find('=');
     if (equals != arg.npos &&
         arg.substr(0, equals).ends_with("benchmark_" + name)) {
-      return arg.substr(equals + 1);
+      value = arg.substr(equals + 1);
     }
   }
-  return {};
+  return value;
 }
 
 // Those that Google Benchmark would answer otherwise than we do.
@@ -75,6 +77,14 @@ bool AreValid(const std::vector<std::string>& args, std::string* error) {
   const auto seconds = quatro::ParseFiniteNumber(min_time);
   if (!min_time.empty() && !(seconds && *seconds >= 0.0)) {
     *error = "--benchmark_min_time=" + min_time + ", must be a number >= 0";
+    return false;
+  }
+  const std::string repetitions = BenchmarkFlag(args, "repetitions");
+  const auto count = quatro::ParseFiniteNumber(repetitions);
+  if (!repetitions.empty() && !(count && *count == std::floor(*count) &&
+                                *count >= 1 && *count <= kMaxRepetitions)) {
+    *error = "--benchmark_repetitions=" + repetitions +
+             ", must be a whole number from 1 to 100000";
     return false;
   }
   for (const char* name : {"format", "out_format"}) {

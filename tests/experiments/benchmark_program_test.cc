@@ -126,6 +126,10 @@ TEST_F(BenchmarkProgramTest, RefusesBadInput) {
   expect({"--frame=1"}, "frame", "");
   expect({"--benchmark_frame=1"}, "--benchmark_frame=1", "not a flag");
   expect({"--benchmark_min_time=x"}, "--benchmark_min_time=x", "a number");
+  for (const char* count : {"-1", "0", "1.5", "x", "1e9"}) {
+    const std::string flag = std::string("--benchmark_repetitions=") + count;
+    expect({"--benchmark_repetitions=1", flag}, flag, "1 to 100000");
+  }
   expect({"--benchmark_out_format=x"}, "--benchmark_out_format=x", "json");
   expect({"--benchmark_filter=sky"}, "match", "sky");
   expect({"--benchmark_filter=(sky"}, "regular expression", "");
