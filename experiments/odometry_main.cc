@@ -29,7 +29,9 @@ DEFINE_string(method, "aloam", "See --list_methods");
 DEFINE_bool(list_methods, false, "Tell the methods and stop");
 DEFINE_int32(interval, 1, "Every how many frames");
 DEFINE_int32(first_frame, 0, "The frame to start at");
-DEFINE_int32(last_frame, -1, "The last frame; -1: that of the last file");
+DEFINE_int32(last_frame,
+             -1,
+             "The last frame; -1, or after it: that of the last file");
 DEFINE_string(preset, "kitti", "Of the methods from scan to scan");
 DEFINE_string(output, "", "File of KITTI poses to write, a line a frame");
 DEFINE_string(calib,
@@ -151,21 +153,24 @@ int Main(int argc, char** argv) {
   if (!truth && (!outside->empty() || FLAGS_quoted || !FLAGS_table.empty())) {
     return Fail("--outside, --quoted and --table need true poses (--truth)");
   }
-  const std::vector<int> frames = quatro::FramesOf(*scans, options);
+  const auto frames = quatro::FramesOf(*scans, options, &error);
+  if (!frames) return Fail(error);
   std::vector<quatro::DriftEntry> entries;
   if (truth) {
-    if (!quatro::SelectFrames(*truth, frames, &error)) {
+    if (!quatro::SelectFrames(*truth, *frames, &error)) {
       return Fail(truth_path + ": " + error);
     }
     for (const quatro::OutsideResult& result : *outside) {
       const auto entry = quatro::DriftOfPoseFile(
-          result.method, FLAGS_interval, result.path, *truth, frames, &error);
+          result.method, FLAGS_interval, result.path, *truth, *frames, &error);
       if (!entry) return Fail(error);
       entries.push_back(*entry);
     }
   }
-  if (!quatro::CanWriteAll(
-          {FLAGS_output, FLAGS_table}, {calib, truth_path}, &error)) {
+  std::vector<std::string> inputs = {calib, truth_path};
+  for (const auto& [frame, path] : *scans) inputs.push_back(path);
+  for (const auto& result : *outside) inputs.push_back(result.path);
+  if (!quatro::CanWriteAll({FLAGS_output, FLAGS_table}, inputs, &error)) {
     return Fail(error);
   }
 

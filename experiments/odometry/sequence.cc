@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMaxMissing = 10000;  // In a row.
+
 std::optional<int> FrameNumber(const std::string& stem) {
   int number = 0;
   const char* end = stem.data() + stem.size();
@@ -78,11 +80,29 @@ bool SequenceOptions::IsValid(std::string* error) const {
   return error->empty();
 }
 
-std::vector<int> FramesOf(const std::map<int, std::string>& scans,
-                          const SequenceOptions& options) {
-  const int last = options.last_frame >= 0 ? options.last_frame
-                   : scans.empty()         ? -1
-                                           : scans.rbegin()->first;
+std::optional<std::vector<int>> FramesOf(
+    const std::map<int, std::string>& scans,
+    const SequenceOptions& options,
+    std::string* error) {
+  int last = scans.empty() ? -1 : scans.rbegin()->first;
+  if (options.last_frame >= 0) last = std::min(last, options.last_frame);
+  if (options.first_frame > last) {
+    *error = "first_frame = " + std::to_string(options.first_frame) +
+             " is after the last";
+    return std::nullopt;
+  }
+  int previous = options.first_frame - 1;
+  for (auto scan = scans.lower_bound(options.first_frame); previous < last;
+       ++scan) {
+    const int num_missing = std::min(scan->first, last) - previous - 1;
+    if (num_missing > kMaxMissing) {
+      *error = scan->second + ": more than " + std::to_string(kMaxMissing) +
+               " frames before it have no file; move it away, or leave them "
+               "out by first_frame or last_frame";
+      return std::nullopt;
+    }
+    previous = scan->first;
+  }
   std::vector<int> frames;
   for (std::int64_t frame = options.first_frame; frame <= last;
        frame += options.interval) {
@@ -113,13 +133,10 @@ std::optional<OdometryRun> RunOdometry(const std::map<int, std::string>& scans,
                                        const OdometryProgress& progress,
                                        std::string* error) {
   if (!options.IsValid(error)) return std::nullopt;
+  const auto frames = FramesOf(scans, options, error);
+  if (!frames) return std::nullopt;
   OdometryRun run;
-  run.frames = FramesOf(scans, options);
-  if (run.frames.empty()) {
-    *error = "first_frame = " + std::to_string(options.first_frame) +
-             " is after the last";
-    return std::nullopt;
-  }
+  run.frames = *frames;
   for (const int frame : run.frames) {
     const auto found = scans.find(frame);
     std::string unreadable;

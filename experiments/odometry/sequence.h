@@ -26,15 +26,19 @@ std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
 struct SequenceOptions {
   int interval = 1;
   int first_frame = 0;
-  int last_frame = -1;  // -1: of the last file.
+  int last_frame = -1;  // -1, or after it: of the last file.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
 // The numbers of the frames to run over, whether or not they have a file.
-std::vector<int> FramesOf(const std::map<int, std::string>& scans,
-                          const SequenceOptions& options);
+// Nullopt with *error set if there are none, or if more than 10000 in a row have
+// no file, as where one has a stray name. Options must be valid.
+std::optional<std::vector<int>> FramesOf(
+    const std::map<int, std::string>& scans,
+    const SequenceOptions& options,
+    std::string* error);
 
 struct OdometryRun {
   std::vector<int> frames;  // Their numbers.

@@ -46,7 +46,13 @@ std::optional<PlannedRun> Plan(const SequenceData& drive,
   }
   SequenceOptions options;
   options.interval = interval;
-  run.frames = FramesOf(run.scans, options);
+  if (run.scans.empty()) {
+    *error = drive.name + ": there are no scans";
+    return std::nullopt;
+  }
+  const auto frames = FramesOf(run.scans, options, error);
+  if (!frames) return std::nullopt;
+  run.frames = *frames;
   for (const int frame : run.frames) {
     const auto pose = drive.world_from_sensor.find(frame);
     if (pose == drive.world_from_sensor.end()) {
@@ -55,10 +61,6 @@ std::optional<PlannedRun> Plan(const SequenceData& drive,
       return std::nullopt;
     }
     run.true_poses.push_back(pose->second);
-  }
-  if (run.frames.empty()) {
-    *error = drive.name + ": there are no scans";
-    return std::nullopt;
   }
   run.path =
       folder + "/" + drive.name + "_" + method + "_" + std::to_string(interval);

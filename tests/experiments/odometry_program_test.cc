@@ -115,6 +115,27 @@ TEST_F(OdometryProgramTest, MostlyLostIsNotVouchedFor) {
   EXPECT_THAT(run.err, HasSubstr("frame 1 lost: the scan has 10 points"));
 }
 
+TEST_F(OdometryProgramTest, EndsWithTheLastFileAndRefusesAStrayOne) {
+  for (const char* name : {"0.bin", "1.bin", "2.bin"}) {
+    Write(name, std::string(160, '\0'));
+  }
+  const std::string input = "--input=" + PathOf("");
+  const ProgramRun run =
+      RunProgram("quatro_odometry", {input, "--last_frame=2147483647"});
+  EXPECT_THAT(run.out, HasSubstr("3 scans, "));
+  Write("999999999.bin", std::string(160, '\0'));
+  for (const char* last : {"--last_frame=-1", "--last_frame=888888888"}) {
+    ExpectBadInput("quatro_odometry",
+                   {input, last},
+                   "999999999.bin: more than 10000 frames before it",
+                   "last_frame");
+  }
+  const ProgramRun without =
+      RunProgram("quatro_odometry", {input, "--last_frame=3"});
+  EXPECT_THAT(without.out, HasSubstr("4 scans, "));
+  EXPECT_THAT(without.err, HasSubstr("there is no file of frame 3"));
+}
+
 // Table II by quatro_experiment.
 TEST_F(OdometryProgramTest, ATableGoesOnAsWhatItWas) {
   const ProgramRun simulated = RunProgram(
@@ -173,7 +194,11 @@ TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {
   ExpectBadInput(program, {drive, "--interval=0"}, "interval = 0", ">= 1");
   ExpectBadInput(
       program, {drive, "--first_frame=9"}, "first_frame = 9", "after the last");
-  ExpectBadInput(program, {drive, "--last_frame=9"}, "poses.txt", "frame 6");
+  Write("short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  ExpectBadInput(program,
+                 {drive, "--truth=" + PathOf("short.txt")},
+                 "short.txt",
+                 "frame 1");
   ExpectBadInput(program, {drive, "--outside=x"}, "--outside", "NAME=POSES");
   ExpectBadInput(
       program, {drive, "--outside=x=" + PathOf("y")}, PathOf("y"), "No such");
@@ -185,6 +210,18 @@ TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {
                  {drive, "--output=" + PathOf("drive/poses.txt")},
                  "poses.txt",
                  "also an input");
+  for (const char* flag : {"--output=", "--table="}) {
+    ExpectBadInput(program,
+                   {drive, flag + PathOf("drive/velodyne/000002.bin")},
+                   "000002.bin",
+                   "also an input");
+  }
+  const std::string theirs = Write("theirs.txt", Read("drive/poses.txt"));
+  ExpectBadInput(program,
+                 {drive, "--outside=x=" + theirs, "--table=" + theirs},
+                 "theirs.txt",
+                 "also an input");
+  ExpectFullOutputTold(program, {"--list_methods"});
   ExpectBadInput(program,
                  {drive, "--output=" + PathOf("none/x.txt")},
                  "none",
