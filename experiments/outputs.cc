@@ -64,6 +64,20 @@ bool CanWriteAll(const std::vector<std::string>& outputs,
   return true;
 }
 
+std::vector<fs::path> MakeFolders(const fs::path& folder,
+                                  std::error_code* error) {
+  std::error_code ignored;
+  std::vector<fs::path> made;
+  for (fs::path part = folder; !part.empty() && !fs::exists(part, ignored);
+       part = part.parent_path()) {
+    made.push_back(part);
+  }
+  fs::create_directories(folder, *error);
+  if (!*error) return made;
+  for (const fs::path& part : made) fs::remove(part, ignored);
+  return {};
+}
+
 bool FlushOutput(std::string* error) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) {

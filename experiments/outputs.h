@@ -5,7 +5,9 @@
 #ifndef QUATRO_EXPERIMENTS_OUTPUTS_H_
 #define QUATRO_EXPERIMENTS_OUTPUTS_H_
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace quatro {
@@ -23,6 +25,11 @@ bool CanWrite(const std::string& path, std::string* error);
 bool CanWriteAll(const std::vector<std::string>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error);
+
+// Makes a folder and its parents, or on an error none of them. Returns those
+// that it made, the innermost first.
+std::vector<std::filesystem::path> MakeFolders(
+    const std::filesystem::path& folder, std::error_code* error);
 
 // Returns false and sets *error if anything printed so far did not arrive.
 bool FlushOutput(std::string* error);

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/outputs.h"
 #include "features/cloud_io.h"
 #include "features/file.h"
 #include "features/parallel.h"
@@ -123,7 +124,11 @@ bool OpenFolder(const std::vector<PairSetOptions>& sets,
     *error = folder.string() + ": is there and is no folder of pairs";
     return false;
   }
-  fs::create_directories(folder / "rows", code);
+  MakeFolders(folder / "rows", &code);
+  if (code) {
+    *error = folder.string() + ": " + code.message();
+    return false;
+  }
   for (const PairSetOptions& set : sets) {
     fs::create_directories(folder / set.Name(), code);
   }

@@ -8,6 +8,8 @@
 #include <set>
 #include <system_error>
 
+#include "experiments/outputs.h"
+
 namespace quatro {
 namespace {
 
@@ -80,7 +82,7 @@ std::unique_ptr<SequenceFolder> SequenceFolder::Create(
   std::unique_ptr<SequenceFolder> folder(new SequenceFolder);
   folder->output_ = output;
   folder->folder_ = output.string() + ".partial." + std::to_string(getpid());
-  fs::create_directories(folder->folder_, code);
+  folder->made_ = MakeFolders(folder->folder_, &code);
   if (code) {
     *error = folder->folder_.string() + ": " + code.message();
     return nullptr;
@@ -91,6 +93,8 @@ std::unique_ptr<SequenceFolder> SequenceFolder::Create(
 SequenceFolder::~SequenceFolder() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
+  // Parents only if they are empty.
+  for (const fs::path& made : made_) fs::remove(made, ignored);
 }
 
 bool SequenceFolder::Finish(std::string* error) {

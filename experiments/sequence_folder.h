@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace quatro {
 
@@ -33,6 +34,7 @@ class SequenceFolder {
   SequenceFolder() = default;
 
   std::filesystem::path output_, folder_;
+  std::vector<std::filesystem::path> made_;  // folder_ and new parents of it.
 };
 
 }  // namespace quatro
