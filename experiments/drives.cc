@@ -16,6 +16,7 @@
 #include "experiments/lidar.h"
 #include "experiments/naver_layout.h"
 #include "experiments/road.h"
+#include "experiments/runner/stop_signal.h"
 #include "experiments/sensors.h"
 #include "experiments/street_objects.h"
 #include "features/random.h"
@@ -295,6 +296,10 @@ bool WriteFrames(const DriveOptions& options,
   const std::vector<InsReading> readings = MeasureDrive(drive, options);
   const auto num_frames = static_cast<int>(drive.world_from_sensor.size());
   for (int i = 0; i < num_frames; ++i) {
+    if (WasAskedToStop()) {
+      *error = "stopped";
+      return false;
+    }
     const auto frame = static_cast<size_t>(i);
     const Scene moving = drive.moving(i);
     std::unique_ptr<LidarScene> others;

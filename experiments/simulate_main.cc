@@ -3,16 +3,21 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/drives.h"
+#include "experiments/number_text.h"
 #include "experiments/pair_files.h"
 #include "experiments/pair_sets.h"
 #include "experiments/program.h"
 #include "experiments/progress_line.h"
+#include "experiments/runner/stop_signal.h"
 #include "experiments/simulator.h"
 #include "experiments/worlds.h"
 
@@ -112,9 +117,74 @@ constexpr char kUsage[] =
     "Called again, it makes the pairs that are missing.\n"
     "\n"
     "Exits with 0 if all was written, 2 if a flag is wrong or a file can't be\n"
-    "written; the folder of a sequence is then as it was before.";
+    "written; 3 if a sequence was stopped. Its folder is then as it was "
+    "before.";
 
 constexpr double kDegree = M_PI / 180.0;
+
+constexpr std::string_view kProtocols = "sequence, drive, pairs, calibration";
+
+struct FlagUse {
+  const char* name;
+  std::string_view protocols;
+};
+
+constexpr FlagUse kFlagUses[] = {{"num_frames", "sequence, drive"},
+                                 {"frame_spacing", "sequence, drive"},
+                                 {"overwrite", "sequence, drive"},
+                                 {"slope_deg", "sequence"},
+                                 {"tilt_sigma_deg", "sequence, drive, pairs"},
+                                 {"drive", "drive"},
+                                 {"sweep_motion", "drive"},
+                                 {"layout", "drive"},
+                                 {"moving_cars", "drive"},
+                                 {"ins_noise_deg", "drive"},
+                                 {"ins_bias_deg", "drive"},
+                                 {"sensor", "drive, pairs"},
+                                 {"world", "pairs"},
+                                 {"pairs", "pairs"},
+                                 {"min_distance", "pairs"},
+                                 {"max_distance", "pairs"},
+                                 {"max_yaw_deg", "pairs"},
+                                 {"min_tilt_deg", "pairs"},
+                                 {"max_tilt_deg", "pairs"},
+                                 {"no_overlap", "pairs"},
+                                 {"features", "pairs"},
+                                 {"ins_std_deg", "pairs"},
+                                 {"scale", "calibration"}};
+
+bool Names(std::string_view list, std::string_view name) {
+  const auto names = quatro::SplitFields(list, ", ");
+  return std::ranges::find(names, name) != names.end();
+}
+
+// Whether the protocol is known and takes every flag that was given.
+bool IsProtocolValid(std::string* error) {
+  if (!Names(kProtocols, FLAGS_protocol)) {
+    *error = "--protocol=" + FLAGS_protocol + ", must be one of " +
+             std::string(kProtocols);
+    return false;
+  }
+  for (const auto& [name, protocols] : kFlagUses) {
+    if (gflags::GetCommandLineFlagInfoOrDie(name).is_default ||
+        Names(protocols, FLAGS_protocol)) {
+      continue;
+    }
+    *error = std::string("--") + name +
+             " does not go with --protocol=" + FLAGS_protocol +
+             ", only with: " + std::string(protocols);
+    return false;
+  }
+  return true;
+}
+
+// Of a sequence that was not written to its end.
+int FailOrStop(const std::string& error) {
+  if (!quatro::WasAskedToStop()) return quatro::Fail(error);
+  quatro::EndProgressLine();
+  std::fprintf(stderr, "stopped; nothing is left of it\n");
+  return quatro::kExitStopped;
+}
 
 std::optional<quatro::PairSetOptions> SetOfFlags() {
   const auto world = quatro::WorldByName(FLAGS_world);
@@ -154,7 +224,7 @@ int WriteDrive() {
   std::string error;
   if (!quatro::SimulateDrive(
           options, FLAGS_output, quatro::ProgressLine("scans"), &error)) {
-    return quatro::Fail(error);
+    return FailOrStop(error);
   }
   return 0;
 }
@@ -179,23 +249,22 @@ int Main(int argc, char** argv) {
   }
   if (FLAGS_output.empty())
     return Fail("--output is empty, must name a folder");
+  std::string error;
+  if (!IsProtocolValid(&error)) return Fail(error);
   if (FLAGS_protocol == "pairs") {
     const auto set = SetOfFlags();
     if (!set)
       return Fail("--world=" + FLAGS_world + ": there is no such world");
     return WriteSets({*set});
   }
-  if (FLAGS_protocol == "drive") return WriteDrive();
   if (FLAGS_protocol == "calibration") {
     if (!(FLAGS_scale > 0.0 && FLAGS_scale <= 100.0)) {
       return Fail("--scale must be in (0, 100]");
     }
     return WriteSets(quatro::CalibrationSets(FLAGS_seed, FLAGS_scale));
   }
-  if (FLAGS_protocol != "sequence") {
-    return Fail("--protocol=" + FLAGS_protocol +
-                ": must be sequence, drive, pairs or calibration");
-  }
+  quatro::ListenForStop();
+  if (FLAGS_protocol == "drive") return WriteDrive();
 
   quatro::SimulateSequenceOptions options;
   options.seed = FLAGS_seed;
@@ -205,10 +274,9 @@ int Main(int argc, char** argv) {
   options.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
   options.num_threads = FLAGS_threads;
   options.overwrite = FLAGS_overwrite;
-  std::string error;
   if (!quatro::SimulateSequence(
           options, FLAGS_output, quatro::ProgressLine("scans"), &error)) {
-    return Fail(error);
+    return FailOrStop(error);
   }
   return 0;
 }

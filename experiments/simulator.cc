@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "experiments/kitti_layout.h"
+#include "experiments/runner/stop_signal.h"
 #include "experiments/street.h"
 
 namespace quatro {
@@ -51,6 +52,10 @@ bool WriteFrames(const SimulateSequenceOptions& options,
   const auto scene = LidarScene::Create(MakeStreet(road), error);
   if (scene == nullptr) return false;
   for (int i = 0; i < options.num_frames; ++i) {
+    if (WasAskedToStop()) {
+      *error = "stopped";
+      return false;
+    }
     const Rigid3 world_from_sensor =
         road.WorldFromSensor(kMargin + i * options.frame_spacing, 0.0, 0.0);
     const PointCloud cloud =

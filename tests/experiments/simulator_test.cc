@@ -5,9 +5,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -22,6 +24,7 @@
 #include "features/voxel_grid.h"
 #include "solvers/rigid3.h"
 #include "tests/support/matchers.h"
+#include "tests/support/run_program.h"
 
 namespace quatro {
 namespace {
@@ -327,6 +330,62 @@ TEST_F(SimulateSequenceTest, InvalidOptionsAreNamed) {
   EXPECT_FALSE(Simulate());
   EXPECT_THAT(error_, HasSubstr("frame_spacing = 0, must be"));
   EXPECT_FALSE(fs::exists(folder_));
+}
+
+class SimulateProgramTest : public ProgramTest {};
+
+TEST_F(SimulateProgramTest, StoppedItLeavesNothing) {
+  const std::string output = PathOf("new/drive");
+  const auto expect_nothing = [&](const std::string& flags,
+                                  const std::string& signal) {
+    const std::string command =
+        QUATRO_BIN_DIR "/quatro_simulate --output=" + output + " " + flags +
+        " 2>" + PathOf("err.txt") + " & pid=$!; while kill -0 $pid && ! [ -d " +
+        output + ".partial.$pid ]; do sleep 0.02; done; kill -" + signal +
+        " $pid; wait $pid";
+    const int status = std::system(command.c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 3) << flags;
+    EXPECT_THAT(Read("err.txt"), HasSubstr("stopped; nothing is left of it"));
+    fs::remove(PathOf("err.txt"));
+    EXPECT_THAT(Contents(), ::testing::IsEmpty());
+  };
+  expect_nothing("--num_frames=5000 --frame_spacing=0.01", "INT");
+  expect_nothing("--protocol=drive --drive=hd_b1 --num_frames=0", "TERM");
+}
+
+TEST_F(SimulateProgramTest, RefusesFlagsThatItWouldNotUse) {
+  const auto expect = [&](const std::string& protocol,
+                          const std::string& flag,
+                          const std::string& protocols) {
+    ExpectBadInput("quatro_simulate",
+                   {"--output=" + PathOf("a"), "--protocol=" + protocol, flag},
+                   flag.substr(0, flag.find('=')) +
+                       " does not go with --protocol=" + protocol,
+                   "only with: " + protocols + "\n");
+  };
+  expect("sequence", "--sensor=foo", "drive, pairs");
+  expect("sequence", "--world=foo", "pairs");
+  expect("sequence", "--drive=99", "drive");
+  expect("sequence", "--layout=naver", "drive");
+  expect("drive", "--slope_deg=3", "sequence");
+  expect("pairs", "--scale=2", "calibration");
+  expect("calibration", "--num_frames=100", "sequence, drive");
+  ExpectBadInput("quatro_simulate",
+                 {"--output=" + PathOf("a"), "--protocol="},
+                 "--protocol=, must be one of",
+                 "sequence, drive, pairs, calibration");
+}
+
+TEST_F(SimulateProgramTest, ANameThatIsTooLongLeavesNoFolder) {
+  const std::string output =
+      "--output=" + PathOf("new/" + std::string(300, 'x'));
+  for (const char* protocol : {"sequence", "drive", "pairs"}) {
+    ExpectBadInput("quatro_simulate",
+                   {output, std::string("--protocol=") + protocol},
+                   "xxx",
+                   "name too long");
+  }
 }
 
 }  // namespace
