@@ -57,7 +57,8 @@ bool IsOfBenchmark(std::string_view arg) {
   return begin != arg.npos && arg.substr(begin).starts_with("benchmark_");
 }
 
-// The value of --benchmark_`name`=..., the last as it counts; empty without one.
+// The value of --benchmark_`name`=..., the last as it counts; empty without
+// one.
 std::string BenchmarkFlag(const std::vector<std::string>& args,
                           const std::string& name) {
   std::string value;

@@ -33,8 +33,8 @@ struct SequenceOptions {
 };
 
 // The numbers of the frames to run over, whether or not they have a file.
-// Nullopt with *error set if there are none, or if more than 10000 in a row have
-// no file, as where one has a stray name. Options must be valid.
+// Nullopt with *error set if there are none, or if more than 10000 in a row
+// have no file, as where one has a stray name. Options must be valid.
 std::optional<std::vector<int>> FramesOf(
     const std::map<int, std::string>& scans,
     const SequenceOptions& options,
