@@ -22,6 +22,11 @@
 
 namespace quatro {
 
+// Of noise, so that information can be reckoned with and written down.
+inline constexpr double kMinSigma = 1e-6;      // [m] and [deg]
+inline constexpr double kMaxSigmaM = 1e6;      // [m]
+inline constexpr double kMaxSigmaDeg = 180.0;  // [deg]
+
 struct PoseEdge {
   std::size_t from = 0;  // Index of a pose.
   std::size_t to = 0;

@@ -147,12 +147,12 @@ class EdgeMaker {
 
   void AddWrong() {
     const std::size_t n = world_.true_world_from_pose.size();
+    const std::size_t reach =
+        options_.max_wrong_steps == 0
+            ? n
+            : std::min(n, static_cast<std::size_t>(options_.max_wrong_steps));
     while (true) {
       const std::size_t i = random_.Below(n);
-      const std::size_t reach =
-          options_.max_wrong_steps == 0
-              ? n
-              : static_cast<std::size_t>(options_.max_wrong_steps);
       const std::size_t j = i + kMinApart + random_.Below(reach);
       if (j >= n) continue;
       Eigen::Vector3d t, r;
@@ -214,23 +214,24 @@ class EdgeMaker {
 
 bool GraphWorldOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  const auto is_positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  const double sigma_deg = rotation_sigma * 180.0 / M_PI;
   if (world != "manhattan" && world != "sphere") {
     problem << "world = " << world << ", must be manhattan or sphere";
   } else if (num_poses < 50 || num_poses > 1000000) {
     problem << "poses = " << num_poses << ", must be 50 to 1000000";
-  } else if (num_loops < 0) {
-    problem << "loops = " << num_loops << ", must be >= 0";
+  } else if (num_loops < 0 || num_loops > 1000000) {
+    problem << "loops = " << num_loops << ", must be 0 to 1000000";
   } else if (!(wrong_share >= 0.0 && wrong_share <= 1.0)) {
     problem << "wrong_share = " << wrong_share << ", must be 0 to 1";
   } else if (max_wrong_steps < 0) {
     problem << "max_wrong_steps = " << max_wrong_steps << ", must be >= 0";
-  } else if (!is_positive(translation_sigma)) {
-    problem << "translation_sigma = " << translation_sigma
-            << ", must be > 0 and finite";
-  } else if (!is_positive(rotation_sigma)) {
-    problem << "rotation_sigma = " << rotation_sigma
-            << ", must be > 0 and finite";
+  } else if (!(translation_sigma >= kMinSigma &&
+               translation_sigma <= kMaxSigmaM)) {
+    problem << "sigma_m = " << translation_sigma << ", must be " << kMinSigma
+            << " to " << kMaxSigmaM;
+  } else if (!(sigma_deg >= kMinSigma && sigma_deg <= kMaxSigmaDeg)) {
+    problem << "sigma_deg = " << sigma_deg << ", must be " << kMinSigma
+            << " to " << kMaxSigmaDeg;
   }
   *error = problem.str();
   return error->empty();

@@ -3,6 +3,7 @@
 
 #include "robust/gnc.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace quatro {
@@ -12,8 +13,8 @@ bool GncOptions::IsValid(std::string* error) const {
   if (max_num_iterations < 1) {
     problem << "max_num_iterations = " << max_num_iterations
             << ", must be >= 1";
-  } else if (!(mu_step > 1.0)) {
-    problem << "mu_step = " << mu_step << ", must be > 1";
+  } else if (!(mu_step > 1.0 && std::isfinite(mu_step))) {
+    problem << "mu_step = " << mu_step << ", must be > 1 and finite";
   } else if (!(binary_weight_tolerance >= 0.0)) {
     problem << "binary_weight_tolerance = " << binary_weight_tolerance
             << ", must be >= 0";

@@ -204,8 +204,8 @@ TEST(PoseGraphWorldOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   expect_error({.num_loops = -1}, "loops = -1");
   expect_error({.num_loops = 100000}, "pairs of poses for right ones");
   expect_error({.wrong_share = 1.5}, "wrong_share = 1.5");
-  expect_error({.translation_sigma = 0.0}, "translation_sigma = 0");
-  expect_error({.rotation_sigma = -1.0}, "rotation_sigma = -1");
+  expect_error({.translation_sigma = 0.0}, "sigma_m = 0");
+  expect_error({.rotation_sigma = -1.0}, "sigma_deg = -57");
 }
 
 }  // namespace

@@ -510,8 +510,10 @@ TEST_F(CeresGncRefuses, NumbersOutOfRange) {
     ExpectRefused(options_, "inlier_probability = ");
   }
   options_ = Tight();
-  options_.gnc.mu_step = 1.0;
-  ExpectRefused(options_, "mu_step = 1");
+  for (const double step : {1.0, kNan, HUGE_VAL}) {
+    options_.gnc.mu_step = step;
+    ExpectRefused(options_, "mu_step = ");
+  }
   options_ = Tight();
   options_.solver.max_num_iterations = -1;
   ExpectRefused(options_, "max_num_iterations");

@@ -274,6 +274,7 @@ TEST(GncOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   expect_error({.max_num_iterations = 0}, "max_num_iterations = 0");
   expect_error({.mu_step = 1.0}, "mu_step = 1");
   expect_error({.mu_step = nan}, "mu_step = nan");
+  expect_error({.mu_step = HUGE_VAL}, "mu_step = inf, must be > 1 and finite");
   expect_error({.binary_weight_tolerance = -1e-3}, "binary_weight_tolerance");
   expect_error({.relative_cost_tolerance = nan}, "relative_cost_tolerance");
 }
