@@ -20,6 +20,10 @@ namespace {
 
 using Id = ceres::ResidualBlockId;
 
+std::string FirstLine(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
 bool IsPositive(double x) { return x > 0.0 && std::isfinite(x); }
 
 // The problem as a subproblem of robust/gnc.h. x is where the caller has it, so
@@ -66,7 +70,7 @@ class CeresSubproblem {
     summary_.solver_seconds += inner.total_time_in_seconds;
     if (!inner.IsSolutionUsable()) {
       error_ = "inner solve " + std::to_string(summary_.inner.size() - 1) +
-               " failed: " + inner.message;
+               " failed: " + FirstLine(inner.message);
       return std::nullopt;
     }
     return Evaluate(inner.final_cost);

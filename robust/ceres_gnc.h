@@ -115,7 +115,8 @@ struct CeresGncSummary {
   GncTermination termination = GncTermination::kInvalidOptions;
   std::string message = "SolveCeresGnc was not called";
 
-  // Every residual block of the problem; empty if nothing was solved.
+  // Every residual block of the problem, where there is no answer with the
+  // weights tried last; empty if GNC was not run.
   std::unordered_map<ceres::ResidualBlockId, GncBlock> blocks;
 
   // Of `cost` as Ceres counts it: half of the weighted sum, known inliers

@@ -457,6 +457,7 @@ class CeresGncRefuses : public ::testing::Test {
     EXPECT_THAT(summary.BriefReport(), HasSubstr(why));
     EXPECT_THAT(summary.FullReport(), HasSubstr(why));
     EXPECT_TRUE(summary.inner.empty());
+    EXPECT_TRUE(summary.blocks.empty());
     EXPECT_EQ(mean_.x, 0.5);
   }
   CeresGncRefuses() { mean_.x = 0.5; }
@@ -933,6 +934,18 @@ TEST(CeresGncReport, SaysWhyItStoppedAndWhatItCost) {
       summary.iterations.size() + 4);
   EXPECT_GT(summary.total_seconds, 0.0);
   EXPECT_LE(summary.solver_seconds, summary.total_seconds);
+}
+
+TEST(CeresGncReport, OfAFailedSolveIsOneLineAndHasTheBlocks) {
+  MeanProblem mean({0.0, 1.0, 2.0});
+  mean.x = kNan;
+  const auto summary = SolveCeresGnc(&mean.problem, Tight());
+  EXPECT_FALSE(summary.IsUsable());
+  ASSERT_EQ(summary.inner.size(), 1u);
+  EXPECT_THAT(summary.inner[0].message, HasSubstr("\n"));
+  EXPECT_THAT(summary.BriefReport(), HasSubstr("inner solve 0 failed: "));
+  EXPECT_EQ(summary.BriefReport().find('\n'), std::string::npos);
+  EXPECT_EQ(summary.blocks.size(), 3u);
 }
 
 TEST(CeresGncReport, OfNothingDoneSaysSo) {
