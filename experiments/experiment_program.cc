@@ -48,6 +48,8 @@ constexpr char kUsage[] =
     "Progress goes to standard error.\n"
     "Exits with 0; 2 if a flag or a file is wrong; 3 if it was stopped.";
 
+constexpr long kMaxMatches = 1'000'000'000;  // 48 GB of points.
+
 std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
   const quatro::Progress progress = quatro::ProgressLine("problems");
   if (protocol == "tims") {
@@ -277,8 +279,12 @@ int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
     return quatro::kExitDone;
   }
   std::string error;
-  if (FLAGS_seeds < 1) return Fail("--seeds must be >= 1");
-  if (FLAGS_max_matches < 1000) return Fail("--max_matches must be >= 1000");
+  if (FLAGS_seeds < 1 || FLAGS_seeds > quatro::kMaxSeeds) {
+    return Fail("--seeds must be 1 to " + std::to_string(quatro::kMaxSeeds));
+  }
+  if (FLAGS_max_matches < 1000 || FLAGS_max_matches > kMaxMatches) {
+    return Fail("--max_matches must be 1000 to " + std::to_string(kMaxMatches));
+  }
   if (!(FLAGS_outliers >= 0.0 && FLAGS_outliers < 1.0)) {
     return Fail("--outliers must be in [0, 1)");
   }

@@ -14,6 +14,9 @@ namespace quatro {
 // Called with the problems solved so far and in all.
 using Progress = std::function<void(int num_done, int num_problems)>;
 
+// Times the kinds of problems of any protocol it is an int still.
+inline constexpr int kMaxSeeds = 1'000'000;
+
 // The surrogates of truncated least squares over the residual, for the figure.
 Table TabulateSurrogates();
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "experiments/number_text.h"
 #include "experiments/protocols/added_yaw.h"
@@ -63,9 +64,10 @@ bool ProtocolOptions::IsValid(std::string* error) const {
   } else if (max_pairs_per_source < 0) {
     *error = "max_pairs_per_source = " + std::to_string(max_pairs_per_source) +
              ", must be >= 0";
-  } else if (!(yaw_step_deg > 0.0 && yaw_step_deg <= 180.0)) {
-    *error = "yaw_step_deg = " + std::to_string(yaw_step_deg) +
-             ", must be in (0, 180]";
+  } else if (!(yaw_step_deg >= 0.01 && yaw_step_deg <= 180.0)) {
+    *error = (std::ostringstream() << "yaw_step_deg = " << yaw_step_deg
+                                   << ", must be in [0.01, 180]")
+                 .str();
   } else {
     return true;
   }

@@ -287,6 +287,27 @@ TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
                    "--intervals",
                    "is no number of frames");
   }
+  for (const char* text : {"0", "1e-09", "nan", "181"}) {
+    ExpectBadInput("quatro_experiment",
+                   {"--protocol=yaw",
+                    "--data=" + PathOf("nowhere"),
+                    "--output=" + PathOf("run"),
+                    std::string("--yaw_step_deg=") + text},
+                   std::string("yaw_step_deg = ") + text,
+                   "must be in [0.01, 180]");
+  }
+  for (const char* text : {"0", "1000001", "2147483647"}) {
+    ExpectBadInput("quatro_experiment",
+                   {"--protocol=tims", std::string("--seeds=") + text},
+                   "--seeds",
+                   "must be 1 to 1000000");
+  }
+  for (const char* text : {"999", "9223372036854775807"}) {
+    ExpectBadInput("quatro_experiment",
+                   {"--protocol=sizes", std::string("--max_matches=") + text},
+                   "--max_matches",
+                   "must be 1000 to 1000000000");
+  }
   ExpectBadInput("quatro_experiment",
                  {"--protocol=pairs", "--pairs=" + PathOf("pairs.csv")},
                  "--output",
