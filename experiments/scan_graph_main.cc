@@ -84,10 +84,13 @@ int Main(int argc, char** argv) {
   if (!(FLAGS_inlier_probability > 0.0 && FLAGS_inlier_probability < 1.0)) {
     return Fail("--inlier_probability must be > 0 and < 1");
   }
-  for (const double sigma : {FLAGS_loop_sigma_m, FLAGS_loop_sigma_deg}) {
-    if (!(sigma > 0.0 && std::isfinite(sigma))) {
-      return Fail("--loop_sigma_m and --loop_sigma_deg must be > 0");
-    }
+  if (!(FLAGS_loop_sigma_m >= quatro::kMinSigma &&
+        FLAGS_loop_sigma_m <= quatro::kMaxSigmaM)) {
+    return Fail("--loop_sigma_m must be 1e-6 to 1e6");
+  }
+  if (!(FLAGS_loop_sigma_deg >= quatro::kMinSigma &&
+        FLAGS_loop_sigma_deg <= quatro::kMaxSigmaDeg)) {
+    return Fail("--loop_sigma_deg must be 1e-6 to 180");
   }
   std::vector<std::string> inputs = paths;
   inputs.push_back(FLAGS_odometry);
@@ -99,10 +102,18 @@ int Main(int argc, char** argv) {
     return Fail(FLAGS_odometry + ": must have a pose in space for each of " +
                 std::to_string(paths.size()) + " scans");
   }
+  std::vector<bool> is_reached(paths.size());
   for (const quatro::PoseEdge& edge : graph->edges) {
     if (!edge.IsOdometry()) {
       return Fail(FLAGS_odometry + ": has an edge that is no odometry");
     }
+    is_reached[edge.to] = true;
+  }
+  for (std::size_t i = 1; i < is_reached.size(); ++i) {
+    if (is_reached[i]) continue;
+    return Fail(FLAGS_odometry + ": must have an edge from pose " +
+                std::to_string(graph->ids[i - 1]) + " to pose " +
+                std::to_string(graph->ids[i]) + ", which follows it");
   }
   std::vector<quatro::PointCloud> scans;
   for (const std::string& path : paths) {

@@ -261,11 +261,25 @@ TEST_F(ScanGraphTest, BadFlagsAreRefused) {
   expect_refused({scans, odometry}, "a pose in space for each of 3 scans");
   expect_refused({scans, odometry, "--preset=none"}, "--preset=none");
   expect_refused({scans, odometry, "--loss=l1"}, "--loss=l1");
-  expect_refused({scans, odometry, "--loop_sigma_m=0"}, "--loop_sigma_m");
+  for (const char* value : {"0", "1e-160", "1e160", "inf", "nan"}) {
+    for (const std::string name : {"--loop_sigma_m", "--loop_sigma_deg"}) {
+      expect_refused({scans, odometry, name + "=" + value},
+                     name + " must be 1e-6 to 1");
+    }
+  }
   const std::string poses =
       "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n"
       "VERTEX_SE3:QUAT 2 0 0 0 0 0 0 1\n";
-  const std::string ok = "--odometry=" + Write("ok.g2o", poses);
+  const auto edge = [](const std::string& ids) {
+    return "EDGE_SE3:QUAT " + ids +
+           " 1 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
+  };
+  expect_refused({scans, "--odometry=" + Write("none.g2o", poses)},
+                 "an edge from pose 0 to pose 1");
+  expect_refused({scans, "--odometry=" + Write("gap.g2o", poses + edge("0 1"))},
+                 "an edge from pose 1 to pose 2");
+  const std::string ok =
+      "--odometry=" + Write("ok.g2o", poses + edge("1 2") + edge("0 1"));
   expect_refused({scans, ok}, "a.bin");
 }
 
