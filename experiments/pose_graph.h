@@ -14,8 +14,10 @@
 #define QUATRO_EXPERIMENTS_POSE_GRAPH_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "solvers/rigid3.h"
@@ -57,6 +59,32 @@ inline void ChainOdometry(PoseGraph* graph) {
     graph->world_from_pose[i] =
         graph->world_from_pose[i - 1] * last[i]->from_from_to;
   }
+}
+
+// The first pose of each part of the graph that edges with weight hold
+// together. Fixed poses are of one part, as the world holds them.
+inline std::vector<std::size_t> FirstOfParts(
+    const PoseGraph& graph, const std::vector<double>& weights) {
+  std::vector<std::size_t> parents(graph.world_from_pose.size());
+  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  const auto find_first = [&](std::size_t i) {
+    while (parents[i] != i) i = parents[i] = parents[parents[i]];
+    return i;
+  };
+  const auto join = [&](std::size_t i, std::size_t j) {
+    i = find_first(i);
+    j = find_first(j);
+    parents[std::max(i, j)] = std::min(i, j);
+  };
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    if (weights[i] > 0.0) join(graph.edges[i].from, graph.edges[i].to);
+  }
+  for (const std::size_t i : graph.fixed) join(graph.fixed.front(), i);
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    if (parents[i] == i) first.push_back(i);
+  }
+  return first;
 }
 
 }  // namespace quatro

@@ -15,6 +15,7 @@
 #include "experiments/pose_graph_worlds.h"
 #include "experiments/program.h"
 #include "experiments/progress_line.h"
+#include "experiments/synthetic_protocols.h"
 
 DEFINE_string(input, "", "g2o file; empty: a generated world");
 DEFINE_string(output, "", "g2o file for the answer; of a protocol, CSV");
@@ -65,7 +66,9 @@ constexpr char kUsage[] =
     "Edges between poses that follow each other are odometry and taken as\n"
     "right, the others are loops. Prints what was done. Exits with 0; 1 if "
     "there\n"
-    "is no answer; 2 if a flag or a file is wrong.";
+    "is no answer, or odometry and the loops that were kept leave the graph "
+    "in\n"
+    "parts (nothing is written then); 2 if a flag or a file is wrong.";
 
 std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
   quatro::PoseGraphOptions options;
@@ -115,7 +118,14 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
   if (FLAGS_protocol != "wrong_loops") {
     return Fail("--protocol=" + FLAGS_protocol + ", must be wrong_loops");
   }
-  if (FLAGS_seeds < 1) return Fail("--seeds must be >= 1");
+  if (!FLAGS_input.empty() || !FLAGS_world_output.empty()) {
+    return Fail(
+        "--protocol makes its own worlds, must not go with --input or "
+        "--world_output");
+  }
+  if (FLAGS_seeds < 1 || FLAGS_seeds > quatro::kMaxSeeds) {
+    return Fail("--seeds must be 1 to " + std::to_string(quatro::kMaxSeeds));
+  }
   // The most right loops are asked for at the least wrong share.
   for (const char* name : {"manhattan", "sphere"}) {
     for (int seed = 0; seed < FLAGS_seeds; ++seed) {
@@ -206,6 +216,16 @@ int Main(int argc, char** argv) {
     std::fputs(summary.gnc.FullReport().c_str(), stdout);
   }
   if (!summary.is_usable) return quatro::kExitNotVouchedFor;
+  const auto parts = quatro::FirstOfParts(graph, summary.weights);
+  if (parts.size() > 1) {
+    std::printf(
+        "the graph is in %zu parts: neither odometry nor a loop that was kept "
+        "joins pose %lld to pose %lld; add edges between them\n",
+        parts.size(),
+        static_cast<long long>(graph.ids[parts[1]]),
+        static_cast<long long>(graph.ids[parts[0]]));
+    return quatro::kExitNotVouchedFor;
+  }
   if (world) PrintTruth(*world, *options, graph, summary.weights);
 
   std::vector<quatro::OutputFile> files;

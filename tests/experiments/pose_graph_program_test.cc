@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <string>
 
 #include "experiments/g2o.h"
@@ -70,6 +71,38 @@ TEST_F(PoseGraphProgramTest, ChainsTheOdometryOfAFile) {
   EXPECT_NEAR(answer->world_from_pose[2].translation.y(), 0.0, 1e-6);
 }
 
+TEST_F(PoseGraphProgramTest, GraphInPartsIsNoAnswer) {
+  const std::string poses =
+      "VERTEX_SE2 5 0 0 0\nVERTEX_SE2 6 1 0 0\n"
+      "VERTEX_SE2 7 2 0 0\nVERTEX_SE2 8 3 0 0\n"
+      "EDGE_SE2 5 6 1 0 0 1 0 0 1 0 1\n"
+      "EDGE_SE2 7 8 1 0 0 1 0 0 1 0 1\n";
+  const std::string far = "EDGE_SE2 5 8 90 0 0 1 0 0 1 0 1\n";
+  const std::string near = "EDGE_SE2 5 8 3 0 0 1 0 0 1 0 1\n";
+  const auto run = [&](const std::string& more, const std::string& flag) {
+    return RunProgram("quatro_pose_graph",
+                      {"--input=" + Write("graph.g2o", poses + more),
+                       "--output=" + PathOf("answer.g2o"),
+                       flag});
+  };
+  for (const char* flag : {"--nochain_odometry", "--chain_odometry"}) {
+    const ProgramRun parts = run("", flag);
+    EXPECT_EQ(parts.exit_code, 1) << parts.err;
+    EXPECT_THAT(parts.out, HasSubstr("in 2 parts"));
+    EXPECT_THAT(parts.out, HasSubstr("joins pose 7 to pose 5"));
+    EXPECT_FALSE(std::filesystem::exists(PathOf("answer.g2o")));
+  }
+  // GNC rejects both of two loops that contradict each other.
+  const ProgramRun rejected = run(near + far, "--loss=gnc");
+  EXPECT_EQ(rejected.exit_code, 1) << rejected.out;
+  EXPECT_THAT(rejected.out, HasSubstr("in 2 parts"));
+  EXPECT_EQ(run(near + far, "--loss=none").exit_code, 0);
+  // It rejects that between fixed poses, too, but these are where they are.
+  for (const std::string& more : {near, far, "FIX 5\nFIX 8\n" + far}) {
+    EXPECT_EQ(run(more, "--loss=gnc").exit_code, 0) << more;
+  }
+}
+
 TEST_F(PoseGraphProgramTest, SecondRunGivesTheSameBytes) {
   for (const char* name : {"a.g2o", "b.g2o"}) {
     RunProgram("quatro_pose_graph",
@@ -123,6 +156,18 @@ TEST_F(PoseGraphProgramTest, BadFlagsAreRefused) {
     }
   }
   expect_refused("--protocol=none", "--protocol=none");
+  for (const std::string flag : {"--input=", "--world_output="}) {
+    ExpectBadInput("quatro_pose_graph",
+                   {"--protocol=wrong_loops", flag + PathOf("x.g2o")},
+                   "--protocol",
+                   "--input");
+  }
+  for (const char* seeds : {"--seeds=0", "--seeds=2147483647"}) {
+    ExpectBadInput("quatro_pose_graph",
+                   {"--protocol=wrong_loops", seeds},
+                   "--seeds",
+                   "1 to 1000000");
+  }
 }
 
 TEST_F(PoseGraphProgramTest, BadFilesAreRefused) {

@@ -14,6 +14,7 @@
 namespace quatro {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 GraphWorld Make(const std::string& name,
@@ -206,6 +207,27 @@ TEST(PoseGraphWorldOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   expect_error({.wrong_share = 1.5}, "wrong_share = 1.5");
   expect_error({.translation_sigma = 0.0}, "sigma_m = 0");
   expect_error({.rotation_sigma = -1.0}, "sigma_deg = -57");
+}
+
+TEST(FirstOfParts, GoesByWeightsAndFixedPoses) {
+  PoseGraph graph;
+  graph.world_from_pose.resize(5);
+  const auto add = [&](std::size_t from, std::size_t to) {
+    graph.edges.emplace_back();
+    graph.edges.back().from = from;
+    graph.edges.back().to = to;
+  };
+  add(3, 4);
+  add(1, 2);
+  add(0, 1);
+  add(4, 0);
+  EXPECT_THAT(FirstOfParts(graph, {1.0, 1.0, 1.0, 0.1}), ElementsAre(0u));
+  EXPECT_THAT(FirstOfParts(graph, {1.0, 1.0, 1.0, 0.0}), ElementsAre(0u, 3u));
+  EXPECT_THAT(FirstOfParts(graph, {0.0, 1.0, 0.0, 0.0}),
+              ElementsAre(0u, 1u, 3u, 4u));
+  graph.fixed = {4, 2};
+  EXPECT_THAT(FirstOfParts(graph, {0.0, 1.0, 0.0, 0.0}),
+              ElementsAre(0u, 1u, 3u));
 }
 
 }  // namespace
