@@ -311,7 +311,7 @@ OptionList OptionsOf(FrontEndOptions* o) {
       MakeOption("voxel_size", "[m], of the sampling.", &o->voxel_size),
       MakeOption("normal_radius", "[m], of the normals.", &o->normal_radius),
       MakeOption("fpfh_radius",
-                 "[m], of the descriptors, no less than normal_radius.",
+                 "[m], of the descriptors, normal_radius to 100 voxel_size.",
                  &o->fpfh_radius),
       MakeOption("tuple_test",
                  "Leave out matches that keep no triangle.",

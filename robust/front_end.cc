@@ -55,6 +55,9 @@ Fpfh Describe(const Points& points,
   return ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
 }
 
+// A larger radius reaches across most of a scan.
+constexpr double kMaxVoxels = 100.0;
+
 }  // namespace
 
 bool FrontEndOptions::IsValid(std::string* error) const {
@@ -64,9 +67,12 @@ bool FrontEndOptions::IsValid(std::string* error) const {
   } else if (!(normal_radius > 0.0 && std::isfinite(normal_radius))) {
     problem << "normal_radius = " << normal_radius
             << ", must be > 0 and finite";
-  } else if (!(fpfh_radius >= normal_radius && std::isfinite(fpfh_radius))) {
+  } else if (!(fpfh_radius >= normal_radius)) {
     problem << "fpfh_radius = " << fpfh_radius
             << ", must be >= normal_radius = " << normal_radius;
+  } else if (fpfh_radius > kMaxVoxels * voxel_size) {
+    problem << "fpfh_radius = " << fpfh_radius << ", must be <= " << kMaxVoxels
+            << " voxel_size = " << kMaxVoxels * voxel_size;
   } else {
     return tuple.IsValid(error);
   }

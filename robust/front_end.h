@@ -34,7 +34,7 @@ using CloudDescriber = std::function<Fpfh(
 struct FrontEndOptions {
   double voxel_size = 0.3;     // [m]
   double normal_radius = 0.9;  // [m]
-  double fpfh_radius = 1.5;    // [m], no less than normal_radius.
+  double fpfh_radius = 1.5;    // [m], normal_radius to 100 voxel_size.
   CloudDescriber describe;     // In place of FPFH, with its radius.
   bool tuple_test = true;
   TupleTestOptions tuple;

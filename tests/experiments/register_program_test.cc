@@ -251,6 +251,11 @@ TEST_F(RegisterProgramTest, DescriptorsNarrowerThanNormals) {
   ExpectRefusedFlag("--fpfh_radius=0.1", "fpfh_radius", "normal_radius");
 }
 
+TEST_F(RegisterProgramTest, DescriptorsOfTheWholeCloud) {
+  ExpectRefusedFlag(
+      "--fpfh_radius=1e300", "fpfh_radius = 1e+300", "must be <=");
+}
+
 TEST_F(RegisterProgramTest, UnknownPreset) {
   ExpectRefusedFlag("--preset=moon", "--preset=moon", "must be auto");
 }

@@ -371,6 +371,10 @@ TEST(RegistrationOptions, ErrorNamesTheFieldAndNothingIsTried) {
                "normal_radius = -1");
   expect_error([](Options o) { o->front_end.fpfh_radius = 0.1; },
                "fpfh_radius = 0.1");
+  expect_error([](Options o) { o->front_end.fpfh_radius = 30.1; },
+               "fpfh_radius = 30.1, must be <= 100 voxel_size = 30");
+  expect_error([](Options o) { o->front_end.fpfh_radius = kInfinity; },
+               "fpfh_radius = inf, must be <= 100 voxel_size = 30");
   expect_error([](Options o) { o->front_end.tuple.scale = 1.0; }, "scale = 1");
   expect_error([](Options o) { o->quatro.noise_bound = 0.0; },
                "noise_bound = 0");
