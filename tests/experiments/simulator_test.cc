@@ -350,7 +350,7 @@ TEST_F(SimulateProgramTest, StoppedItLeavesNothing) {
     fs::remove(PathOf("err.txt"));
     EXPECT_THAT(Contents(), ::testing::IsEmpty());
   };
-  expect_nothing("--num_frames=5000 --frame_spacing=0.01", "INT");
+  expect_nothing("--num_frames=200 --frame_spacing=0.1", "INT");
   expect_nothing("--protocol=drive --drive=hd_b1 --num_frames=0", "TERM");
 }
 
