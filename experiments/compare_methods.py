@@ -32,6 +32,7 @@ import math
 import os
 import pathlib
 import statistics
+import subprocess
 import sys
 
 import run_pairs
@@ -145,17 +146,41 @@ def run_path(path):
     return os.path.splitext(path)[0] + ".run"
 
 
-def read_results(path, run):
+def check_methods(methods, program):
+    """Their names become those of files."""
+    run_pairs.check_program(program)
+    try:
+        listed = subprocess.run([program, "--list_methods"], stdin=subprocess.DEVNULL,
+                                capture_output=True, text=True, check=True).stdout
+    except (OSError, UnicodeDecodeError, subprocess.CalledProcessError):
+        raise run_pairs.BadInput(f"{program}: does not tell its --list_methods; "
+                                 "is it quatro_register?") from None
+    names = [line.split()[0] for line in listed.splitlines() if line.strip()]
+    for method in methods:
+        if method not in names:
+            raise run_pairs.BadInput(f"--methods: there is no {method!r}; there are "
+                                     f"{','.join(names)}")
+
+
+def read_results(path, run, pairs):
     try:
         with open(run_path(path), encoding="utf-8") as file:
             same = json.load(file) == run
-    except (OSError, json.JSONDecodeError):
+    except (OSError, ValueError):
         same = False
     if not same:
         raise run_pairs.BadInput(f"{path}: was made by other flags or from other pairs; "
                                  "remove it or name another --output")
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+    results = [row for _, row in run_pairs.read_rows(path, run_pairs.RESULT_COLUMNS)[0]]
+    found = [(result["set"], result["source"], result["target"]) for result in results]
+    try:
+        if found != [pair[:3] for pair in pairs]:
+            raise ValueError
+        summarize("", results)
+    except (TypeError, ValueError):
+        raise run_pairs.BadInput(f"{path}: does not hold the results of the pairs; "
+                                 "remove it to run them again") from None
+    return results
 
 
 def main(args):
@@ -179,6 +204,9 @@ def main(args):
         raise run_pairs.BadInput("there is neither --methods nor --outside")
     pairs = run_pairs.read_pairs(options.pairs, options.exclude)
     known = {(row["source"], row["target"]) for _, row in run_pairs.read_rows(options.pairs)[0]}
+    methods = options.methods.split(",") if options.methods else []
+    if methods:
+        check_methods(methods, options.program)
     # Before hours of runs, not after them.
     outside = [(name, read_outside(path, known))
                for name, path in map(parse_outside, options.outside)]
@@ -187,24 +215,30 @@ def main(args):
             os.makedirs(options.output, exist_ok=True)
         except OSError as error:
             raise run_pairs.BadInput(f"{options.output}: {error.strerror}") from None
+        inputs = [options.pairs, options.program,
+                  *(path for _, path in map(parse_outside, options.outside)),
+                  *run_pairs.scans_of(pairs, options.pairs)]
+        for method in methods:
+            for ending in (".csv", ".csv.part", ".run"):
+                run_pairs.check_writable(os.path.join(options.output, method + ending), inputs)
     rows = [("method", "registered", *(f"{m:g} m {d:g} deg" for m, d in run_pairs.SUCCESS.values()),
              "wrong", "median / mean [m]", "median / mean [deg]", "front end [ms]", "rest [ms]",
              "memory [MB]")]
-    for method in options.methods.split(",") if options.methods else ():
+    for method in methods:
         own = [*flags, f"--method={method}"]
         path = options.output and os.path.join(options.output, f"{method}.csv")
         run = run_pairs.describe_run(options.pairs, options.exclude, options.program, own)
         if path and os.path.exists(path):
-            results = read_results(path, run)
+            results = read_results(path, run, pairs)
         else:
-            done = run_pairs.Done(path and path + ".part", run)
-            print(f"{method}:", file=sys.stderr)
-            results = run_pairs.run_all(pairs, pathlib.Path(options.pairs).parent, options.program,
-                                        own, 1, done)
-            if path:
-                run_pairs.write_atomically(run_path(path), json.dumps(run) + "\n")
-                run_pairs.write_atomically(path, run_pairs.format_results(results))
-                done.remove()
+            with run_pairs.Done(path and path + ".part", run) as done:
+                print(f"{method}:", file=sys.stderr)
+                results = run_pairs.run_all(pairs, pathlib.Path(options.pairs).parent,
+                                            options.program, own, 1, done)
+                if path:
+                    run_pairs.write_atomically(run_path(path), json.dumps(run) + "\n")
+                    run_pairs.write_atomically(path, run_pairs.format_results(results))
+                    done.remove()
         rows.append(summarize(method, results))
     for name, found in outside:
         rows.append(summarize(name, measure_outside(pairs, found)))
@@ -213,11 +247,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except run_pairs.BadInput as problem:
-        print(f"compare_methods.py: {problem}", file=sys.stderr)
-        sys.exit(2)
-    except KeyboardInterrupt:
-        print("compare_methods.py: interrupted", file=sys.stderr)
-        sys.exit(130)
+    run_pairs.run_script(main)

@@ -25,7 +25,6 @@ Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
 import concurrent.futures
 import math
-import os
 import pathlib
 import re
 import statistics
@@ -106,15 +105,12 @@ def parse_attitudes(row, names, where):
 
 def read_ins(path, is_own_file):
     """(source, target) -> (source's attitude, target's, standard deviation or None), in degrees."""
-    rows, names = run_pairs.read_rows(path)
+    rows, names = run_pairs.read_rows(path, ("source", "target"))
     ways = [RPY, QUATERNION] if is_own_file else [RPY]
     if not any(set(way) <= set(names) for way in ways):
         missing = " nor ".join(",".join(way) for way in ways)
         raise BadInput(f"{path}: there are no columns {missing}"
                        + ("" if is_own_file else "; name a file that has them by --ins"))
-    for name in ("source", "target"):
-        if name not in names:
-            raise BadInput(f"{path}: there is no column {name}")
     ins = {}
     for line, row in rows:
         where = f"{path}: line {line}"
@@ -215,10 +211,13 @@ def parse_args(args):
 def main(args):
     options, flags = parse_args(args)
     if options.output:
-        run_pairs.check_writable(options.output)
+        run_pairs.check_writable(options.output, [options.pairs, options.ins or options.pairs,
+                                                  options.program])
     ins = read_ins(options.ins or options.pairs, bool(options.ins))
     pairs = [pair for pair in run_pairs.read_pairs(options.pairs, [])
              if (pair.source, pair.target) in ins]
+    if options.output:
+        run_pairs.check_writable(options.output, run_pairs.scans_of(pairs, options.pairs))
     if not pairs:
         raise BadInput(f"{options.ins}: has none of the pairs in {options.pairs}")
     for pair in pairs:
@@ -227,8 +226,7 @@ def main(args):
     flag = next((flag for flag in flags if flag.lstrip("-").startswith("ins_std_deg")), None)
     if flag and any(std is not None for *_, std in ins.values()):
         raise BadInput(f"{flag}: {options.ins or options.pairs} has a column of it")
-    if not os.access(options.program, os.X_OK) or os.path.isdir(options.program):
-        raise BadInput(f"{options.program}: is not a program; build it or name it by --program")
+    run_pairs.check_program(options.program)
     rows = tabulate(pairs, ins, pathlib.Path(options.pairs).parent, options.program, flags,
                     int(options.jobs))
     if options.output:
@@ -237,11 +235,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except BadInput as problem:
-        print(f"ins_table.py: {problem}", file=sys.stderr)
-        sys.exit(2)
-    except KeyboardInterrupt:
-        print("ins_table.py: interrupted", file=sys.stderr)
-        sys.exit(130)
+    run_pairs.run_script(main)

@@ -17,7 +17,6 @@ import csv
 import io
 import itertools
 import pathlib
-import sys
 
 import run_pairs
 
@@ -62,9 +61,15 @@ def main(args):
     options = parser.parse_args(args)
     if options.each < 1:
         raise run_pairs.BadInput(f"--each={options.each}: must be > 0")
-    run_pairs.check_writable(options.output)
+    run_pairs.check_writable(options.output, [options.pairs])
     pairs = run_pairs.read_pairs(options.pairs, options.exclude)
-    places = find_places(pairs, [group.split(",") for group in options.same])
+    run_pairs.check_writable(options.output, run_pairs.scans_of(pairs, options.pairs))
+    same = [group.split(",") for group in options.same]
+    unknown = {name for group in same for name in group} - {pair.set for pair in pairs}
+    unknown -= set(options.exclude)
+    if unknown:
+        raise run_pairs.BadInput(f"--same={min(unknown)}: {options.pairs} has no such set")
+    places = find_places(pairs, same)
     folder = pathlib.Path(options.pairs).resolve().parent
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -80,8 +85,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except run_pairs.BadInput as problem:
-        print(f"list_wrong_pairs.py: {problem}", file=sys.stderr)
-        sys.exit(2)
+    run_pairs.run_script(main)

@@ -23,6 +23,7 @@ import argparse
 import collections
 import concurrent.futures
 import csv
+import fcntl
 import hashlib
 import io
 import json
@@ -92,22 +93,23 @@ def parse_pose(row, where):
     return rotation_from_quaternion(*(q / norm for q in values[3:])), values[:3]
 
 
-def read_rows(path):
-    """(line, row) of each, and the names of the columns."""
+def read_rows(path, columns=()):
+    """(line, row) of each, and the names of the columns, of which `columns` must be there."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
             reader = csv.DictReader(file)
+            names = reader.fieldnames or []
             rows = [(reader.line_num, row) for row in reader]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise BadInput(f"{path}: {getattr(error, 'strerror', None) or error}") from None
-    return rows, reader.fieldnames or []
+    for name in columns:
+        if name not in names:
+            raise BadInput(f"{path}: there is no column {name}")
+    return rows, names
 
 
 def read_pairs(path, excluded):
-    rows, names = read_rows(path)
-    for name in ("source", "target"):
-        if name not in names:
-            raise BadInput(f"{path}: there is no column {name}")
+    rows, names = read_rows(path, ("source", "target"))
     given = [name for name in POSE if name in names]
     if given and len(given) < len(POSE):
         missing = ",".join(name for name in POSE if name not in names)
@@ -201,41 +203,87 @@ def describe_run(pairs, exclude, program, flags):
     return [os.path.abspath(pairs), list_hash, exclude, os.path.abspath(program), flags]
 
 
+def open_locked(path):
+    """To append to; no other process has it, and another one is told so."""
+    while True:
+        file = open(path, "a+b", buffering=0)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise BadInput(f"{path}: another process works here; wait for it or stop it") from None
+        if os.fstat(file.fileno()).st_nlink > 0:
+            return file
+        file.close()  # Removed meanwhile by the one that had it.
+
+
+def parse_done(line):
+    """Index and result; None if it is no such line."""
+    try:
+        index, result = json.loads(line)
+        return (index, result) if result.keys() == set(RESULT_COLUMNS) else None
+    except (AttributeError, TypeError, ValueError):
+        return None
+
+
 class Done:
-    """The results so far, on disk: a line each, after one that says of what run."""
+    """The results so far, on disk: a line each, after one that says of what run.
+
+    The file is locked while it is open, and is left only if there is a result in it.
+    """
 
     def __init__(self, path, run):
-        self.path, self.results = path, {}
+        self.path, self.results, self.file = path, {}, None
         if not path:
             return
-        head = json.dumps(run) + "\n"
+        self.head = json.dumps(run).encode() + b"\n"
         try:
-            with open(path, encoding="utf-8") as file:
-                lines = file.readlines()
-        except FileNotFoundError:
-            lines = []
+            self.file = open_locked(path)
+            self.file.seek(0)
+            self.read(self.file.readall())
         except OSError as error:
             raise BadInput(f"{path}: {error.strerror}") from None
-        if lines and lines[0] != head:
-            raise BadInput(f"{path}: is what another run has done, with other flags or pairs; "
+
+    def read(self, data):
+        head, *lines = data.splitlines(keepends=True) or [b""]
+        if data and head != self.head and (lines or not head.startswith(b'["/')):
+            raise BadInput(f"{self.path}: is what another run has done, with other flags or pairs; "
                            "remove it to start anew")
         # A line that a stop cut short is run again.
-        whole = [line for line in lines[1:] if line.endswith("\n")]
-        for line in whole:
-            index, result = json.loads(line)
-            self.results[index] = result
-        self.file = open(path, "w", encoding="utf-8", buffering=1)
-        self.file.write(head + "".join(whole))
+        if lines and not lines[-1].endswith(b"\n"):
+            self.file.truncate(len(data) - len(lines.pop()))
+        for number, line in enumerate(lines, 2):
+            parsed = parse_done(line)
+            if parsed:
+                self.results[parsed[0]] = parsed[1]
+            else:
+                print(f"{self.path}: line {number} cannot be read; its pair is run again",
+                      file=sys.stderr)
+        if not self.results:
+            self.file.truncate(0)
 
     def add(self, index, result):
+        if self.file:
+            line = json.dumps([index, result]).encode() + b"\n"
+            if not self.results:
+                line = self.head + line
+            try:
+                while line:
+                    line = line[self.file.write(line):]
+            except OSError as error:
+                raise BadInput(f"{self.path}: {error.strerror}") from None
         self.results[index] = result
-        if self.path:
-            self.file.write(json.dumps([index, result]) + "\n")
 
     def remove(self):
-        if self.path:
+        self.results = {}
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.file:
+            if not self.results:
+                pathlib.Path(self.path).unlink(missing_ok=True)
             self.file.close()
-            os.unlink(self.path)
 
 
 def run_all(pairs, folder, program, flags, num_jobs, done):
@@ -292,7 +340,13 @@ def format_summary(results):
         for row in rows) + "wrong: registered, but not within 2 m and 10 deg\n"
 
 
-def check_writable(path):
+def check_program(path):
+    if not os.access(path, os.X_OK) or os.path.isdir(path):
+        raise BadInput(f"{path}: is not a program; build it or name it by --program")
+
+
+def check_writable(path, inputs=()):
+    """Before the work that is to be written; never over what it is made of."""
     if os.path.isdir(path):
         raise BadInput(f"{path}: is a directory, must be a file to write")
     folder = os.path.dirname(path) or "."
@@ -300,6 +354,14 @@ def check_writable(path):
         raise BadInput(f"{path}: there is no folder {folder}")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise BadInput(f"{path}: may not write into folder {folder}")
+    if os.path.realpath(path) in map(os.path.realpath, inputs):
+        raise BadInput(f"{path}: would be overwritten, but is read here; name another file")
+
+
+def scans_of(pairs, path):
+    """Of a list of that path."""
+    folder = pathlib.Path(path).parent
+    return {folder / scan for pair in pairs for scan in (pair.source, pair.target)}
 
 
 def write_atomically(path, text):
@@ -339,27 +401,42 @@ def parse_args(args):
 
 def main(args):
     options, flags = parse_args(args)
+    part = options.output and options.output + ".part"
     if options.output:
-        check_writable(options.output)
+        check_writable(options.output, [options.pairs, options.program])
+        check_writable(part, [options.pairs, options.program])
     pairs = read_pairs(options.pairs, options.exclude)
-    if not os.access(options.program, os.X_OK) or os.path.isdir(options.program):
-        raise BadInput(f"{options.program}: is not a program; build it or name it by --program")
-    done = Done(options.output and options.output + ".part",
-                describe_run(options.pairs, options.exclude, options.program, flags))
-    results = run_all(pairs, pathlib.Path(options.pairs).parent, options.program, flags,
-                      int(options.jobs), done)
     if options.output:
-        write_atomically(options.output, format_results(results))
-        done.remove()
+        check_writable(options.output, scans_of(pairs, options.pairs))
+        check_writable(part, scans_of(pairs, options.pairs))
+    check_program(options.program)
+    run = describe_run(options.pairs, options.exclude, options.program, flags)
+    with Done(part, run) as done:
+        results = run_all(pairs, pathlib.Path(options.pairs).parent, options.program, flags,
+                          int(options.jobs), done)
+        if options.output:
+            write_atomically(options.output, format_results(results))
+            done.remove()
     sys.stdout.write(format_summary(results))
 
 
-if __name__ == "__main__":
+def run_script(main):
+    """main(arguments), and what is wrong in one line."""
     try:
         main(sys.argv[1:])
-    except BadInput as problem:
-        print(f"run_pairs.py: {problem}", file=sys.stderr)
-        sys.exit(2)
+        sys.stdout.flush()
+        return
+    except BadInput as error:
+        problem, code = error, 2
+    except OSError as error:
+        problem, code = f"{error.filename or 'standard output'}: {error.strerror}", 2
+        # Python's own flush at the end would fail once more.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     except KeyboardInterrupt:
-        print("run_pairs.py: interrupted", file=sys.stderr)
-        sys.exit(130)
+        problem, code = "interrupted", 130
+    print(f"{os.path.basename(sys.argv[0])}: {problem}", file=sys.stderr)
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    run_script(main)

@@ -146,6 +146,20 @@ class InsTableTest(unittest.TestCase):
         no_pose = self.write("no_pose.csv", "source,target\na.bin,t.bin\n")
         self.expect_refused("no_pose.csv", "has no pose", f"--pairs={no_pose}", f"--ins={ins}")
 
+    def test_nothing_that_is_read_is_overwritten(self):
+        ins = self.write("ins.csv", f"source,target,qx,qy,qz,qw\nb.bin,t.bin,{self.quaternion}\n")
+        before = {path: path.read_bytes() for path in self.folder.iterdir()}
+        for name in ("pairs.csv", "ins.csv", "b.bin"):
+            self.expect_refused(name, "would be overwritten", f"--pairs={self.pairs}",
+                                f"--ins={ins}", f"--output={self.folder}/{name}")
+        self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
+
+    def test_empty_files_are_told(self):
+        empty = self.write("empty.csv", "")
+        self.expect_refused("empty.csv", "there is no column source", f"--pairs={empty}")
+        self.expect_refused("empty.csv", "there is no column source", f"--pairs={self.pairs}",
+                            f"--ins={empty}")
+
     def test_attitudes_and_rotations_are_inverse(self):
         for rpy in ((1.0, -2.0, 170.0), (0.0, 0.0, 0.0), (-20.0, 80.0, -3.0)):
             back = ins_table.rpy_from_rotation(ins_table.rotation_from_rpy(rpy))

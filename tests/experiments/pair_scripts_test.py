@@ -13,6 +13,7 @@ import random
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.dont_write_bytecode = True
@@ -23,9 +24,13 @@ import list_wrong_pairs  # noqa: E402
 import run_pairs  # noqa: E402
 
 # Registers sources named a*; counts its calls; stops the run at c.bin if there
-# is a file "stop" beside it. --method=half is off by 5 m.
+# is a file "stop" beside it, waits for a file "go" if there is one "wait".
+# --method=half is off by 5 m.
 STAND_IN = """#!/usr/bin/env python3
-import json, os, pathlib, sys
+import json, os, pathlib, sys, time
+if sys.argv[1:] == ["--list_methods"]:
+    print("whole  all of it\\nhalf   a part of it")
+    sys.exit(0)
 flags = dict(arg.lstrip("-").split("=", 1) for arg in sys.argv[1:])
 source = pathlib.Path(flags["source"])
 with open(source.parent / "calls", "a") as calls:
@@ -33,6 +38,8 @@ with open(source.parent / "calls", "a") as calls:
 if source.name == "c.bin" and (source.parent / "stop").exists():
     print("c.bin: stopped", file=sys.stderr)
     sys.exit(2)
+while (source.parent / "wait").exists() and not (source.parent / "go").exists():
+    time.sleep(0.01)
 registered = source.name.startswith("a")
 shift = 5.0 if flags.get("method") == "half" else 0.0
 print(json.dumps({"status": "registered" if registered else "ambiguous",
@@ -112,6 +119,137 @@ class PairScriptsTest(unittest.TestCase):
         run = self.run_pairs("--preset=paper")
         self.assertEqual(run.returncode, 2)
         self.assertIn("other flags", run.stderr)
+
+    def expect_refused(self, problem, name, *args, stdout=subprocess.PIPE):
+        run = subprocess.run([sys.executable, str(SCRIPTS / name), *args], stdout=stdout,
+                             stderr=subprocess.PIPE, text=True, check=False,
+                             stdin=subprocess.DEVNULL, cwd=self.folder, timeout=60)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertIn(problem, run.stderr)
+
+    def test_a_line_that_cannot_be_read_is_run_again_and_the_others_stay(self):
+        self.write("stop", "")
+        self.run_pairs()
+        part = self.folder / "out.csv.part"
+        head, a, b = part.read_text().splitlines()
+        part.write_text("\n".join((head, "[0, {}]", "\0\xff", b, "")), encoding="latin-1")
+        (self.folder / "stop").unlink()
+        run = self.run_pairs()
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("out.csv.part: line 2 cannot be read", run.stderr)
+        self.assertIn("out.csv.part: line 3 cannot be read", run.stderr)
+        self.assertEqual(self.calls(), ["a.bin", "b.bin", "c.bin", "a.bin", "c.bin"])
+
+    def test_what_is_done_is_never_cut_off(self):
+        self.write("stop", "")
+        self.run_pairs()
+        part = self.folder / "out.csv.part"
+        before = part.read_text()
+        with run_pairs.Done(str(part), json.loads(before.splitlines()[0])) as done:
+            self.assertEqual(len(done.results), 2)
+            self.assertEqual(part.read_text(), before)
+        self.assertEqual(part.read_text(), before)
+
+    def test_a_full_disk_is_one_line(self):
+        done = run_pairs.Done("", [])
+        done.path, done.head = "full.part", b"[]\n"
+        with open("/dev/full", "wb", buffering=0) as done.file:
+            with self.assertRaisesRegex(run_pairs.BadInput, "full.part: No space left"):
+                done.add(0, {})
+        self.assertEqual(done.results, {})
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            self.expect_refused("standard output: No space left", "list_wrong_pairs.py",
+                                f"--pairs={self.pairs}", "--output=wrong.csv", stdout=full)
+
+    def test_a_full_standard_output_is_told_after_the_pairs(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            run = subprocess.run([sys.executable, str(SCRIPTS / "run_pairs.py"),
+                                  f"--program={self.program}", f"--pairs={self.pairs}"],
+                                 stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertEqual(run.stderr.splitlines()[3:],
+                         ["run_pairs.py: standard output: No space left on device"])
+
+    def test_two_runs_do_not_share_an_output(self):
+        self.write("wait", "")
+        args = [f"--program={self.program}", f"--pairs={self.pairs}", "--output=out.csv"]
+        with subprocess.Popen([sys.executable, str(SCRIPTS / "run_pairs.py"), *args],
+                              cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as first:
+            try:
+                end = time.monotonic() + 60.0
+                while not (self.folder / "calls").exists() and time.monotonic() < end:
+                    time.sleep(0.01)
+                self.expect_refused("out.csv.part: another process works here", "run_pairs.py",
+                                    *args)
+            finally:
+                self.write("go", "")
+            _, errors = first.communicate()
+        self.assertEqual(first.returncode, 0, errors)
+        self.assertEqual(self.calls(), ["a.bin", "b.bin", "c.bin"])
+
+    def test_a_run_that_did_nothing_leaves_nothing(self):
+        self.write("program", "#!/bin/sh\necho 'unknown flag' >&2\nexit 2\n")
+        os.chmod(self.folder / "program", 0o755)
+        self.expect_refused("unknown flag", "run_pairs.py", f"--program={self.folder}/program",
+                            f"--pairs={self.pairs}", "--output=out.csv")
+        self.assertFalse((self.folder / "out.csv.part").exists())
+        # Nor does one that was killed first stand in the way.
+        self.write("out.csv.part", '["/another run"]\n')
+        self.assertEqual(self.run_pairs().returncode, 0)
+        # What is no such file is left alone.
+        self.write("out.csv.part", "mine")
+        self.assertEqual(self.run_pairs().returncode, 2)
+        self.assertEqual((self.folder / "out.csv.part").read_text(), "mine")
+
+    def test_nothing_that_is_read_is_overwritten(self):
+        self.write("whole.csv", pathlib.Path(self.pairs).read_text())
+        self.write("places.csv", "set,source,target\none,a.bin,b.bin\ntwo,c.bin,t.bin\n")
+        os.symlink("pairs.csv", self.folder / "link.csv")
+        before = {path: path.read_bytes() for path in self.folder.iterdir()}
+        program = f"--program={self.program}"
+        for name, *args in (
+                ("run_pairs.py", program, "--pairs=pairs.csv", "--output=./pairs.csv"),
+                ("run_pairs.py", program, "--pairs=link.csv", "--output=pairs.csv"),
+                ("run_pairs.py", program, "--pairs=pairs.csv", "--output=link.csv"),
+                ("run_pairs.py", program, "--pairs=pairs.csv", "--output=a.bin"),
+                ("run_pairs.py", program, "--pairs=pairs.csv", "--output=stand_in"),
+                ("compare_methods.py", program, "--pairs=whole.csv", "--methods=whole",
+                 "--output=."),
+                ("list_wrong_pairs.py", "--pairs=places.csv", "--output=places.csv"),
+                ("list_wrong_pairs.py", "--pairs=places.csv", "--output=t.bin")):
+            self.expect_refused("would be overwritten", name, *args)
+        self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
+
+    def test_only_methods_that_there_are_name_files(self):
+        for methods in ("../x", "whole,", "other"):
+            self.expect_refused("there are whole,half", "compare_methods.py",
+                                f"--program={self.program}", f"--pairs={self.pairs}",
+                                f"--methods={methods}", "--output=out")
+        self.expect_refused("does not tell its --list_methods", "compare_methods.py",
+                            "--program=/bin/false", f"--pairs={self.pairs}", "--methods=whole")
+        self.assertFalse((self.folder / "calls").exists())
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_only_whole_results_are_gone_on_with(self):
+        args = (f"--program={self.program}", f"--pairs={self.pairs}", "--methods=whole",
+                "--output=out")
+        path = self.folder / "out" / "whole.csv"
+        run = subprocess.run([sys.executable, str(SCRIPTS / "compare_methods.py"), *args],
+                             capture_output=True, text=True, check=False, cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        good = path.read_text()
+        lines = good.splitlines(keepends=True)
+        for text, problem in (("", "there is no column set"),
+                              ("set,source\none,a.bin\n", "there is no column target"),
+                              ("".join(lines[:-1]), "does not hold the results of the pairs"),
+                              ("".join(lines[:2] + lines[1:3]), "does not hold the results"),
+                              (good.replace("0.0000", "x"), "does not hold the results"),
+                              (good.replace("registered,", "\0,"), "whole.csv: ")):
+            path.write_text(text)
+            self.expect_refused(problem, "compare_methods.py", *args)
+            self.assertEqual(path.read_text(), text)
 
     def test_methods_are_compared_in_one_table(self):
         args = ("compare_methods.py", f"--program={self.program}", f"--pairs={self.pairs}",
@@ -209,7 +347,8 @@ class PairScriptsTest(unittest.TestCase):
             self.assertIsNone(p.pose)
 
     def test_bad_lists_are_one_line(self):
-        for text, problem in (("source\n", "there is no column target"),
+        for text, problem in (("", "there is no column source"),
+                              ("source\n", "there is no column target"),
                               ("source,target\nx.bin,t.bin\n", "there is no file 'x.bin'"),
                               ("source,target\n", "there are no pairs")):
             pairs = self.write("bad.csv", text)
@@ -218,6 +357,16 @@ class PairScriptsTest(unittest.TestCase):
             self.assertEqual(run.returncode, 2)
             self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
             self.assertIn(problem, run.stderr)
+            for name in ("run_pairs.py", "compare_methods.py"):
+                flags = ["--methods=whole"] if name == "compare_methods.py" else []
+                self.expect_refused(problem, name, f"--program={self.program}",
+                                    f"--pairs={pairs}", *flags)
+
+    def test_sets_of_one_place_are_those_that_there_are(self):
+        args = ("list_wrong_pairs.py", f"--pairs={self.pairs}", f"--output={self.folder}/wrong.csv")
+        self.expect_refused("--same=three: ", *args, "--same=one,three")
+        self.assertFalse((self.folder / "wrong.csv").exists())
+        self.assertEqual(self.run_script(*args, "--same=one,two", "--exclude=two").returncode, 0)
 
 
 class CalibrationTest(unittest.TestCase):
