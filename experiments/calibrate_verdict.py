@@ -23,35 +23,32 @@ Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
 import argparse
 import collections
-import csv
 import hashlib
-import sys
 
 import numpy as np
 
 import run_pairs
 
 Case = collections.namedtuple("Case", "set is_right features probability status is_reported")
+COLUMNS = ("set", "source", "target", "status", "success_2m_10deg", "probability", "features")
 
 
 def read_cases(paths):
     cases = []
     for path in paths:
-        try:
-            with open(path, newline="", encoding="utf-8") as file:
-                rows = list(csv.DictReader(file))
-        except OSError as error:
-            raise run_pairs.BadInput(f"{path}: {error.strerror}") from None
-        for row in rows:
-            if "features" not in row or "success_2m_10deg" not in row:
-                raise run_pairs.BadInput(f"{path}: has no column features or success_2m_10deg; "
-                                         "is it of run_pairs.py?")
-            features = dict(item.split("=") for item in row["features"].split(";") if item)
+        for line, row in run_pairs.read_rows(path, COLUMNS)[0]:
             name = f"{row['source']} {row['target']}"
             digest = hashlib.sha256(name.encode()).digest()
-            cases.append(Case(row["set"], row["success_2m_10deg"] == "1",
-                              {key: float(value) for key, value in features.items()},
-                              float(row["probability"] or 0.0), row["status"], digest[0] % 2 == 1))
+            try:
+                features = dict(item.split("=") for item in row["features"].split(";") if item)
+                cases.append(Case(row["set"], row["success_2m_10deg"] == "1",
+                                  {key: float(value) for key, value in features.items()},
+                                  float(row["probability"] or 0.0), row["status"],
+                                  digest[0] % 2 == 1))
+            except (AttributeError, ValueError):
+                raise run_pairs.BadInput(f"{path}: line {line} is not of run_pairs.py") from None
+    if not any(case.features for case in cases):
+        raise run_pairs.BadInput(f"{paths[0]}: there are no pairs with an answer to fit to")
     return cases
 
 
@@ -139,7 +136,7 @@ def draw(path, models):
     diagram.set_xlabel("probability of success as told")
     diagram.set_ylabel("share that is right, with 95 % intervals")
     diagram.set_title("reliability")
-    figure.savefig(path, dpi=120)
+    run_pairs.save_picture(figure, path, dpi=120)
 
 
 def main(args):
@@ -157,7 +154,7 @@ def main(args):
                         help="registered from this probability on (default: 0.8)")
     options = parser.parse_args(args)
     if options.picture:
-        run_pairs.check_writable(options.picture)
+        run_pairs.check_picture(options.picture, options.results)
     cases = read_cases(options.results)
     answered = [case for case in cases if case.features]
     print(f"{len(cases)} pairs, {len(answered)} with an answer, "
@@ -171,6 +168,8 @@ def main(args):
                   and case.set not in left_out]
         fitted = [case for case in usable if not case.is_reported]
         reported = [case for case in usable if case.is_reported]
+        if not fitted or not reported:
+            raise run_pairs.BadInput(f"{title}: too few pairs with an answer for two halves")
         w = fit(matrix(fitted, chosen), np.array([case.is_right for case in fitted], float))
         y = np.array([case.is_right for case in reported], float)
         p = probability(w, matrix(reported, chosen))
@@ -198,8 +197,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except run_pairs.BadInput as problem:
-        print(f"calibrate_verdict.py: {problem}", file=sys.stderr)
-        sys.exit(2)
+    run_pairs.run_script(main)

@@ -12,41 +12,33 @@ A row a film.
 
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
-import csv
-import sys
-
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+import run_pairs
+from run_pairs import BadInput
+
 NUM_CURVES = 5  # Of the iterations, evenly, the last among them.
-
-
-class BadInput(Exception):
-    pass
 
 
 def read_film(path):
     film = {"weight": {}, "curve": {}, "yaw": {}, "mu": {}}
     ends = {"truncated": [], "is_true": [], "gnc": [], "exact": [], "truth": []}
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            for line, row in enumerate(csv.DictReader(file), 2):
-                try:
-                    point = float(row["x"]), float(row["y"])
-                    if row["kind"] in ends:
-                        ends[row["kind"]].append(point)
-                        continue
-                    iteration = int(row["iteration"])
-                    film["mu"][iteration] = float(row["mu"])
-                    film[row["kind"]].setdefault(iteration, []).append(point)
-                except (KeyError, TypeError, ValueError) as failure:
-                    raise BadInput(f"{path}: line {line} is not of a film") from failure
-    except OSError as failure:
-        raise BadInput(f"{path}: {failure.strerror}") from failure
+    for line, row in run_pairs.read_rows(path)[0]:
+        try:
+            point = float(row["x"]), float(row["y"])
+            if row["kind"] in ends:
+                ends[row["kind"]].append(point)
+                continue
+            iteration = int(row["iteration"])
+            film["mu"][iteration] = float(row["mu"])
+            film[row["kind"]].setdefault(iteration, []).append(point)
+        except (KeyError, TypeError, ValueError) as failure:
+            raise BadInput(f"{path}: line {line} is not of a film") from failure
     film.update(ends)
-    if not film["yaw"] or not all(ends.values()):
+    if not all(film[kind] for kind in ("weight", "curve", "yaw")) or not all(ends.values()):
         raise BadInput(f"{path}: is no film; see --protocol=film of quatro_experiment")
     return film
 
@@ -101,21 +93,15 @@ def draw_costs(axes, film):
 def main(arguments):
     if len(arguments) < 2:
         raise BadInput("give FILM.csv, one or more, and PICTURE.png")
+    run_pairs.check_picture(arguments[-1], arguments[:-1])
     films = [read_film(path) for path in arguments[:-1]]
     figure, rows = plt.subplots(len(films), 2, figsize=(12.5, 3.9 * len(films)), squeeze=False,
                                 layout="constrained", width_ratios=(1, 1.7))
     for (left, right), film in zip(rows, films):
         draw_weights(left, film)
         draw_costs(right, film)
-    try:
-        figure.savefig(arguments[-1], dpi=110, metadata={"Software": None})
-    except (OSError, ValueError) as failure:
-        raise BadInput(f"{arguments[-1]}: {failure}") from failure
+    run_pairs.save_picture(figure, arguments[-1], dpi=110, metadata={"Software": None})
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except BadInput as failure:
-        print(f"draw_gnc_film.py: {failure}", file=sys.stderr)
-        sys.exit(2)
+    run_pairs.run_script(main)

@@ -57,11 +57,7 @@ def finish(axes, title, low, high, origin):
     axes.legend(loc="upper right", fontsize="small", framealpha=0.9)
 
 
-def main():
-    if sys.argv[1:] == ["--check"]:
-        return
-    with open(sys.argv[1]) as file:
-        data = json.load(file)
+def draw(data, picture):
     source, target = points(data, "source"), points(data, "target")
     matched_source, matched_target = points(data, "matched_source"), points(data, "matched_target")
     is_inlier = np.zeros(len(matched_source), dtype=bool)
@@ -94,8 +90,29 @@ def main():
         finish(after, "after", low, high, data["origin"])
     else:
         finish(after, "no answer", low, high, data["origin"])
-    figure.savefig(sys.argv[2], dpi=100, format="png")
+    figure.savefig(picture, dpi=100, format="png")
+
+
+def main(arguments):
+    """What is wrong; None if nothing is."""
+    if arguments == ["--check"]:
+        return None
+    if len(arguments) != 2:
+        return "give DATA.json and PICTURE.png"
+    data, picture = arguments
+    try:
+        with open(data, encoding="utf-8") as file:
+            draw(json.load(file), picture)
+    except OSError as error:
+        return f"{error.filename or picture}: {error.strerror}"
+    except (IndexError, KeyError, TypeError, ValueError):
+        return f"{data}: is not of quatro_register --picture"
+    return None
 
 
 if __name__ == "__main__":
-    main()
+    # Alone where it is installed: without the helpers of the other scripts.
+    problem = main(sys.argv[1:])
+    if problem:
+        print(f"draw_registration.py: {problem}", file=sys.stderr)
+        sys.exit(2)

@@ -5,23 +5,39 @@
 
     build/bin/quatro_experiment --protocol=surrogates --output=surrogates.csv
     experiments/with_python.sh matplotlib experiments/draw_surrogates.py surrogates.csv surrogates.png
-"""
-import csv
-import sys
 
+Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+"""
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+import run_pairs
+from run_pairs import BadInput
 
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(f"usage: {sys.argv[0]} TABLE.csv PICTURE.png")
+
+def read_curves(path):
+    """mu -> (residual, loss) of each point."""
     curves = {}
-    with open(sys.argv[1], newline="") as file:
-        for row in csv.DictReader(file):
+    for line, row in run_pairs.read_rows(path, ("mu", "residual", "loss"))[0]:
+        try:
+            float(row["mu"])
             curves.setdefault(row["mu"], []).append((float(row["residual"]), float(row["loss"])))
+        except (TypeError, ValueError):
+            raise BadInput(f"{path}: line {line} is not of --protocol=surrogates") from None
+    if not curves:
+        raise BadInput(f"{path}: there are no curves; see --protocol=surrogates of "
+                       "quatro_experiment")
+    return curves
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        raise BadInput("give TABLE.csv and PICTURE.png")
+    table, picture = arguments
+    run_pairs.check_picture(picture, [table])
+    curves = read_curves(table)
 
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
     colors = plt.get_cmap("viridis")
@@ -39,8 +55,8 @@ def main():
     axes.set_ylabel(r"$\rho_\mu(r^2 / c^2)$")
     axes.set_title("Truncated least squares and its surrogates")
     axes.legend(loc="lower right")
-    figure.savefig(sys.argv[2], dpi=120)
+    run_pairs.save_picture(figure, picture, dpi=120)
 
 
 if __name__ == "__main__":
-    main()
+    run_pairs.run_script(main)

@@ -6,14 +6,16 @@
     build/bin/quatro_pose_graph --protocol=wrong_loops --output=a.csv
     build/bin/quatro_pose_graph --protocol=wrong_loops --sigma_m=0.1 --sigma_deg=4 --output=b.csv
     experiments/with_python.sh matplotlib experiments/draw_wrong_loops.py a.csv b.csv wrong_loops.png
-"""
-import csv
-import sys
 
+Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+"""
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+
+import run_pairs
+from run_pairs import BadInput
 
 STYLES = {
     "gnc": ("GNC", "black", "o", "-"),
@@ -25,18 +27,36 @@ STYLES = {
 TITLES = {"manhattan": "Manhattan, in the plane", "sphere": "Sphere, in space"}
 
 
-def main():
-    if len(sys.argv) < 3:
-        sys.exit(f"usage: {sys.argv[0]} TABLE.csv... PICTURE.png")
+COLUMNS = ("world", "sigma_m", "sigma_deg", "loss", "wrong_share", "right", "runs",
+           "median_error_m")
+
+
+def read_curves(paths):
+    """(world, noise) -> loss -> (share, right, error) of each point."""
     curves = {}
-    for path in sys.argv[1:-1]:
-        with open(path, newline="") as file:
-            for row in csv.DictReader(file):
-                panel = row["world"], row["sigma_m"], row["sigma_deg"]
-                x = 100 * float(row["wrong_share"])
-                right = 100 * int(row["right"]) / int(row["runs"])
-                error = max(float(row["median_error_m"]), 1e-9)
-                curves.setdefault(panel, {}).setdefault(row["loss"], []).append((x, right, error))
+    for path in paths:
+        rows, _ = run_pairs.read_rows(path, COLUMNS)
+        if not rows:
+            raise BadInput(f"{path}: there are no lines; see --protocol=wrong_loops of "
+                           "quatro_pose_graph")
+        for line, row in rows:
+            panel = row["world"], row["sigma_m"], row["sigma_deg"]
+            try:
+                point = (100 * float(row["wrong_share"]), 100 * int(row["right"]) / int(row["runs"]),
+                         max(float(row["median_error_m"]), 1e-9))
+                STYLES[row["loss"]]
+            except (KeyError, TypeError, ValueError, ZeroDivisionError):
+                raise BadInput(f"{path}: line {line} is not of --protocol=wrong_loops") from None
+            curves.setdefault(panel, {}).setdefault(row["loss"], []).append(point)
+    return curves
+
+
+def main(arguments):
+    if len(arguments) < 2:
+        raise BadInput("give TABLE.csv, one or more, and PICTURE.png")
+    *tables, picture = arguments
+    run_pairs.check_picture(picture, tables)
+    curves = read_curves(tables)
 
     figure, axes = plt.subplots(2, len(curves), figsize=(1 + 3.5 * len(curves), 6), layout="constrained",
                                 sharex=True, sharey="row", squeeze=False)
@@ -54,8 +74,8 @@ def main():
     axes[0, 0].set_ylabel("runs within 0.1 m [%]")
     axes[1, 0].set_ylabel("largest error, median [m]")
     axes[0, 0].legend(loc="center right")
-    figure.savefig(sys.argv[-1], dpi=100)
+    run_pairs.save_picture(figure, picture, dpi=100)
 
 
 if __name__ == "__main__":
-    main()
+    run_pairs.run_script(main)

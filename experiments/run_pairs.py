@@ -364,13 +364,29 @@ def scans_of(pairs, path):
     return {folder / scan for pair in pairs for scan in (pair.source, pair.target)}
 
 
-def write_atomically(path, text):
+def check_picture(path, inputs):
+    check_writable(path, inputs)
+    from matplotlib.backend_bases import FigureCanvasBase
+    endings = FigureCanvasBase.get_supported_filetypes()
+    if os.path.splitext(path)[1][1:].lower() not in endings:
+        raise BadInput(f"{path}: a picture's name ends with one of .{' .'.join(endings)}")
+
+
+def save_picture(figure, path, **options):
+    picture = io.BytesIO()
+    figure.savefig(picture, format=os.path.splitext(path)[1][1:].lower(), **options)
+    write_atomically(path, picture.getvalue())
+
+
+def write_atomically(path, content):
+    """Text or bytes."""
+    data = content.encode() if isinstance(content, str) else content
     try:
         descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path) or ".",
                                                  prefix=os.path.basename(path) + ".tmp.")
         try:
-            with open(descriptor, "w", encoding="utf-8", newline="") as file:
-                file.write(text)
+            with open(descriptor, "wb") as file:
+                file.write(data)
                 os.fchmod(file.fileno(), 0o644)
             os.replace(temporary, path)
         except BaseException:

@@ -11,6 +11,7 @@ Without --output it opens a window. Works cell by cell in a notebook, too.
 
 # %% What to register
 import argparse
+import os
 import sys
 
 import numpy as np
@@ -25,14 +26,26 @@ parser.add_argument('--method', default='quatro', choices=quatro.methods())
 parser.add_argument('--output', help='a picture; a window without')
 args = parser.parse_args()
 
+
+
+def refuse(problem):
+    print(problem, file=sys.stderr)
+    sys.exit(2)
+
+
+if args.output:
+    if not os.path.isdir(os.path.dirname(args.output) or '.'):
+        refuse('%s: there is no folder for it' % args.output)
+    if os.path.realpath(args.output) in map(os.path.realpath, (args.source, args.target)):
+        refuse('%s: is a cloud; name another file to draw to' % args.output)
+
+# %% Register
 try:
     source = quatro.read_cloud(args.source)
     target = quatro.read_cloud(args.target)
+    answer = quatro.register(source, target, args.preset, method=args.method)
 except ValueError as error:
-    sys.exit(str(error))
-
-# %% Register
-answer = quatro.register(source, target, args.preset, method=args.method)
+    refuse(error)
 print(answer)
 print('%d voxels and %d voxels, %d matches, of which %d agree' %
       (answer.num_source_voxels, answer.num_target_voxels,
@@ -77,7 +90,10 @@ after.set_title('%s, probability %.2f' % (answer.status, answer.probability))
 after.legend(loc='upper right', markerscale=20)
 figure.tight_layout()
 if args.output:
-    figure.savefig(args.output, dpi=120)
+    try:
+        figure.savefig(args.output, dpi=120)
+    except (OSError, ValueError) as error:
+        refuse('%s: %s' % (args.output, error))
 else:
     plt.show()
 sys.exit(0 if answer.is_registered else 1)

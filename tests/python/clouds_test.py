@@ -153,4 +153,13 @@ def test_the_example_draws(tmp_path):
     assert (tmp_path / 'drawing.png').read_bytes()[:4] == b'\x89PNG'
     command[2] = 'none.bin'
     run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert run.returncode == 1 and 'none.bin' in run.stderr and 'Traceback' not in run.stderr
+    assert run.returncode == 2 and 'none.bin' in run.stderr and run.stderr.count('\n') == 1
+    command[2:] = ['source.bin', 'target.bin', '--output']
+    (tmp_path / 'nan.bin').write_bytes(np.full(4, np.nan, np.float32).tobytes())
+    for source, output, problem in (('source.bin', 'none/x.png', 'there is no folder'),
+                                    ('source.bin', 'source.bin', 'is a cloud'),
+                                    ('nan.bin', 'x.png', '')):
+        command[2], command[5:] = source, [output]
+        run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert run.returncode == 2 and problem in run.stderr, run.stderr
+        assert run.stderr.count('\n') == 1
