@@ -9,7 +9,8 @@ bool AreValidMatches(const PointsRef& source,
                      const PointsRef& target,
                      std::string* error) {
   if (source.cols() != target.cols()) {
-    *error = std::to_string(source.cols()) + " source points are matched with " +
+    *error = std::to_string(source.cols()) +
+             " source points are matched with " +
              std::to_string(target.cols()) + " target points";
     return false;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What any estimator asks of matched points (p_i, q_i), i < N: as many of one as
-// of the other, and all finite. None at all is fine.
+// What any estimator asks of matched points (p_i, q_i), i < N: as many of one
+// as of the other, and all finite. None at all is fine.
 
 #ifndef QUATRO_SOLVERS_VALID_MATCHES_H_
 #define QUATRO_SOLVERS_VALID_MATCHES_H_
