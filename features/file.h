@@ -29,6 +29,8 @@ class PendingFile {
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
 
+  // Under its name, in place of a file that was there. Returns false and sets
+  // *error if it cannot be.
   bool Rename(std::string* error);
 
  private:
