@@ -517,6 +517,12 @@ TEST(Ransac, BadInputIsRefused) {
       SolveRansac(problem.source, problem.target, options);
   ExpectNoAnswer(without, PoseTermination::kInvalidInput);
   EXPECT_THAT(without.message, HasSubstr("need normals"));
+  MatchedNormals few = problem.normals;
+  few.target.conservativeResize(3, 7);
+  const RansacSummary with_few =
+      SolveRansac(problem.source, problem.target, options, &few);
+  ExpectNoAnswer(with_few, PoseTermination::kInvalidInput);
+  EXPECT_THAT(with_few.message, HasSubstr("not as many normals as matches"));
   problem.normals.source(0, 0) = kNaN;
   EXPECT_THAT(Solve(problem, options).message, HasSubstr("normal is not"));
   EXPECT_TRUE(Solve(problem).IsUsable());  // They are not looked at.
