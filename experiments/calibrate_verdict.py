@@ -21,13 +21,13 @@ was fitted: what is reported is what ships.
 
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
-import argparse
 import collections
 import hashlib
 
 import numpy as np
 
-import run_pairs
+from script_support import (BadInput, Parser, check_picture, read_rows, run_script,
+                            save_picture)
 
 Case = collections.namedtuple("Case", "set is_right features probability status is_reported")
 COLUMNS = ("set", "source", "target", "status", "success_2m_10deg", "probability", "features")
@@ -36,7 +36,7 @@ COLUMNS = ("set", "source", "target", "status", "success_2m_10deg", "probability
 def read_cases(paths):
     cases = []
     for path in paths:
-        for line, row in run_pairs.read_rows(path, COLUMNS)[0]:
+        for line, row in read_rows(path, COLUMNS)[0]:
             name = f"{row['source']} {row['target']}"
             digest = hashlib.sha256(name.encode()).digest()
             try:
@@ -46,9 +46,9 @@ def read_cases(paths):
                                   float(row["probability"] or 0.0), row["status"],
                                   digest[0] % 2 == 1))
             except (AttributeError, ValueError):
-                raise run_pairs.BadInput(f"{path}: line {line} is not of run_pairs.py") from None
+                raise BadInput(f"{path}: line {line} is not of run_pairs.py") from None
     if not any(case.features for case in cases):
-        raise run_pairs.BadInput(f"{paths[0]}: there are no pairs with an answer to fit to")
+        raise BadInput(f"{paths[0]}: there are no pairs with an answer to fit to")
     return cases
 
 
@@ -136,12 +136,11 @@ def draw(path, models):
     diagram.set_xlabel("probability of success as told")
     diagram.set_ylabel("share that is right, with 95 % intervals")
     diagram.set_title("reliability")
-    run_pairs.save_picture(figure, path, dpi=120)
+    save_picture(figure, path, dpi=120)
 
 
 def main(args):
-    parser = run_pairs.Parser(prog="calibrate_verdict.py", description=__doc__, allow_abbrev=False,
-                              formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(__doc__)
     parser.add_argument("results", metavar="RESULTS.csv", nargs="+", help="of run_pairs.py")
     parser.add_argument("--picture", metavar="FILE.png", help="file for the two diagrams")
     parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_twin,symmetric_apart",
@@ -154,7 +153,7 @@ def main(args):
                         help="registered from this probability on (default: 0.8)")
     options = parser.parse_args(args)
     if options.picture:
-        run_pairs.check_picture(options.picture, options.results)
+        check_picture(options.picture, options.results)
     cases = read_cases(options.results)
     answered = [case for case in cases if case.features]
     print(f"{len(cases)} pairs, {len(answered)} with an answer, "
@@ -169,7 +168,7 @@ def main(args):
         fitted = [case for case in usable if not case.is_reported]
         reported = [case for case in usable if case.is_reported]
         if not fitted or not reported:
-            raise run_pairs.BadInput(f"{title}: too few pairs with an answer for two halves")
+            raise BadInput(f"{title}: too few pairs with an answer for two halves")
         w = fit(matrix(fitted, chosen), np.array([case.is_right for case in fitted], float))
         y = np.array([case.is_right for case in reported], float)
         p = probability(w, matrix(reported, chosen))
@@ -197,4 +196,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    run_pairs.run_script(main)
+    run_script(main)

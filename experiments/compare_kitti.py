@@ -17,7 +17,6 @@ which pairs of frames are drawn: beside real ones, within 0.4 m of their distanc
 and 20 deg of their turns where there are such. Of a real list, scans of less than --min_points
 are left out: they have been thinned. Exit code: 0; 2 if a flag or a file is wrong.
 """
-import argparse
 import collections
 import csv
 import json
@@ -30,7 +29,8 @@ import subprocess
 import sys
 import tempfile
 
-from run_pairs import BadInput, read_pairs
+from run_pairs import DEFAULT_PROGRAM, check_program, read_pairs
+from script_support import BadInput, Parser, reason, run_script, split_flags
 
 BINS = (0.0, 2.5, 7.5, 12.5, 17.5, 25.0, 40.0)  # [m]
 MAX_ERROR = 0.6  # Of a true match [m].
@@ -39,11 +39,6 @@ LIKE_YAW = math.radians(20.0)  # and the turn between its scans.
 CLOSE = 1.5  # A ratio within 1/1.5 .. 1.5 is close.
 
 Pair = collections.namedtuple("Pair", "source target pose")  # pose: (R, t)
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(message)
 
 
 def product(a, b):
@@ -56,14 +51,14 @@ def inverse(pose):
         [[0.0, 0.0, 0.0, 1.0]]
 
 
-def read_rows(path, prefix=""):
+def read_matrices(path, prefix=""):
     """3x4 matrices of the lines that begin with `prefix`, made 4x4."""
     try:
         lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
         rows = [[float(x) for x in line[len(prefix):].split()] for line in lines
                 if line.startswith(prefix)]
     except (OSError, UnicodeDecodeError, ValueError) as error:
-        raise BadInput(f"{path}: {error}") from None
+        raise BadInput(f"{path}: {reason(error)}") from None
     if not rows or any(len(row) != 12 for row in rows):
         raise BadInput(f"{path}: must have 12 numbers a line")
     return [[row[0:4], row[4:8], row[8:12], [0.0, 0.0, 0.0, 1.0]] for row in rows]
@@ -80,9 +75,9 @@ def turn_between(a, b):
 def pairs_of_sequence(folder, per_bin, seed, models=None):
     """Of each bin, pairs as far apart and as turned as the models there in turn; without
     models, any."""
-    tr = read_rows(folder / "calib.txt", "Tr:")[0]
+    tr = read_matrices(folder / "calib.txt", "Tr:")[0]
     world_from_sensor = [product(product(inverse(tr), pose), tr)
-                         for pose in read_rows(folder / "poses.txt")]
+                         for pose in read_matrices(folder / "poses.txt")]
     headings = [heading(pose) for pose in world_from_sensor]
     by_bin = collections.defaultdict(list)
     for i, target in enumerate(world_from_sensor):
@@ -250,10 +245,8 @@ def format_ratios(real, simulated):
 
 
 def parse_args(args):
-    parser = Parser(prog="compare_kitti.py", description=__doc__, allow_abbrev=False,
-                    formatter_class=argparse.RawDescriptionHelpFormatter,
-                    usage="compare_kitti.py --real=LIST --simulated=LIST ... "
-                          "[-- FLAGS OF quatro_register]")
+    parser = Parser(__doc__, usage="compare_kitti.py --real=LIST --simulated=LIST ... "
+                                   "[-- FLAGS OF quatro_register]")
     parser.add_argument("--real", metavar="LIST", action="append", default=[])
     parser.add_argument("--simulated", metavar="LIST", action="append", default=[])
     parser.add_argument("--exclude", metavar="SET", action="append", default=[],
@@ -261,16 +254,16 @@ def parse_args(args):
     parser.add_argument("--pairs_per_bin", type=int, default=8)
     parser.add_argument("--min_points", type=int, default=90000)
     parser.add_argument("--seed", type=int, default=1)
-    default = pathlib.Path(__file__).resolve().parent.parent / "build" / "bin" / "quatro_register"
-    parser.add_argument("--program", default=str(default), metavar="FILE")
-    split = args.index("--") if "--" in args else len(args)
-    return parser.parse_args(args[:split]), args[split + 1:]
+    parser.add_argument("--program", default=str(DEFAULT_PROGRAM), metavar="FILE")
+    own, flags = split_flags(args)
+    return parser.parse_args(own), flags
 
 
 def main(args):
     options, flags = parse_args(args)
     if not options.real and not options.simulated:
         raise BadInput("there is neither --real nor --simulated")
+    check_program(options.program)
     columns = []
     real = []
     for path in options.real + options.simulated:
@@ -295,10 +288,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except BadInput as problem:
-        print(f"compare_kitti.py: {problem}", file=sys.stderr)
-        sys.exit(2)
-    except KeyboardInterrupt:
-        sys.exit(130)
+    run_script(main)

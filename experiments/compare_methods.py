@@ -25,7 +25,6 @@ pairs of sets that are excluded.
 
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
-import argparse
 import csv
 import json
 import math
@@ -36,6 +35,8 @@ import subprocess
 import sys
 
 import run_pairs
+from script_support import (BadInput, Parser, check_writable, parse_number, read_rows, reason,
+                            run_script, split_flags, write_atomically)
 
 FRONT_END = ("voxels", "features", "matching")
 MAX_DEVIATION = 1e-3  # Of R^T R from the identity, by element.
@@ -74,27 +75,21 @@ def summarize(method, results):
 def parse_matrix(fields, where):
     """4 rows of 4, the last one 0 0 0 1."""
     if len(fields) not in (12, 16):
-        raise run_pairs.BadInput(f"{where} has {len(fields)} numbers after source and target, "
-                                 "must have 12 or 16")
-    values = []
-    for number, field in enumerate(fields, 1):
-        try:
-            values.append(float(field))
-        except ValueError:
-            raise run_pairs.BadInput(f"{where} number {number} is {field!r}") from None
-        if not math.isfinite(values[-1]):
-            raise run_pairs.BadInput(f"{where} number {number} is {field!r}, must be finite")
+        raise BadInput(f"{where} has {len(fields)} numbers after source and target, "
+                       "must have 12 or 16")
+    values = [parse_number(field, f"{where} number {number}")
+              for number, field in enumerate(fields, 1)]
     rows = [values[i:i + 4] for i in range(0, len(values), 4)]
     if len(rows) == 3:
         rows.append([0.0, 0.0, 0.0, 1.0])
     if math.dist(rows[3], (0.0, 0.0, 0.0, 1.0)) > 1e-6:
-        raise run_pairs.BadInput(f"{where} does not end with the row 0 0 0 1")
+        raise BadInput(f"{where} does not end with the row 0 0 0 1")
     a, b, c = ([row[j] for row in rows[:3]] for j in range(3))
     deviation = max(abs(sum(x * y for x, y in zip(u, v)) - (u is v))
                     for u in (a, b, c) for v in (a, b, c))
     determinant = sum(a[i] * (b[i - 2] * c[i - 1] - b[i - 1] * c[i - 2]) for i in range(3))
     if not deviation <= MAX_DEVIATION or determinant < 0.0:
-        raise run_pairs.BadInput(f"{where} is not a rotation and a translation")
+        raise BadInput(f"{where} is not a rotation and a translation")
     return rows
 
 
@@ -102,7 +97,7 @@ def parse_outside(text):
     """NAME and FILE of NAME=FILE."""
     name, _, path = text.partition("=")
     if not name or not path:
-        raise run_pairs.BadInput(f"--outside={text}: must be NAME=FILE.csv")
+        raise BadInput(f"--outside={text}: must be NAME=FILE.csv")
     return name, path
 
 
@@ -112,7 +107,7 @@ def read_outside(path, known):
         with open(path, encoding="utf-8") as file:
             lines = file.read().splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        raise run_pairs.BadInput(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+        raise BadInput(f"{path}: {reason(error)}") from None
     found = {}
     for number, line in enumerate(lines, 1):
         fields = [field.strip() for field in next(csv.reader([line]), ())]
@@ -123,12 +118,12 @@ def read_outside(path, known):
         where = f"{path}: line {number}"
         pair = tuple(fields[:2])
         if pair not in known:
-            raise run_pairs.BadInput(f"{where}: no pair {','.join(pair)} is in the list of pairs")
+            raise BadInput(f"{where}: no pair {','.join(pair)} is in the list of pairs")
         if pair in found:
-            raise run_pairs.BadInput(f"{where}: the pair {','.join(pair)} was there before")
+            raise BadInput(f"{where}: the pair {','.join(pair)} was there before")
         found[pair] = parse_matrix(fields[2:], where)
     if not found:
-        raise run_pairs.BadInput(f"{path}: there are no pairs")
+        raise BadInput(f"{path}: there are no pairs")
     return found
 
 
@@ -153,13 +148,12 @@ def check_methods(methods, program):
         listed = subprocess.run([program, "--list_methods"], stdin=subprocess.DEVNULL,
                                 capture_output=True, text=True, check=True).stdout
     except (OSError, UnicodeDecodeError, subprocess.CalledProcessError):
-        raise run_pairs.BadInput(f"{program}: does not tell its --list_methods; "
-                                 "is it quatro_register?") from None
+        raise BadInput(f"{program}: does not tell its --list_methods; "
+                       "is it quatro_register?") from None
     names = [line.split()[0] for line in listed.splitlines() if line.strip()]
     for method in methods:
         if method not in names:
-            raise run_pairs.BadInput(f"--methods: there is no {method!r}; there are "
-                                     f"{','.join(names)}")
+            raise BadInput(f"--methods: there is no {method!r}; there are {','.join(names)}")
 
 
 def read_results(path, run, pairs):
@@ -169,25 +163,23 @@ def read_results(path, run, pairs):
     except (OSError, ValueError):
         same = False
     if not same:
-        raise run_pairs.BadInput(f"{path}: was made by other flags or from other pairs; "
-                                 "remove it or name another --output")
-    results = [row for _, row in run_pairs.read_rows(path, run_pairs.RESULT_COLUMNS)[0]]
+        raise BadInput(f"{path}: was made by other flags or from other pairs; "
+                       "remove it or name another --output")
+    results = [row for _, row in read_rows(path, run_pairs.RESULT_COLUMNS)[0]]
     found = [(result["set"], result["source"], result["target"]) for result in results]
     try:
         if found != [pair[:3] for pair in pairs]:
             raise ValueError
         summarize("", results)
     except (TypeError, ValueError):
-        raise run_pairs.BadInput(f"{path}: does not hold the results of the pairs; "
-                                 "remove it to run them again") from None
+        raise BadInput(f"{path}: does not hold the results of the pairs; "
+                       "remove it to run them again") from None
     return results
 
 
 def main(args):
-    parser = run_pairs.Parser(prog="compare_methods.py", description=__doc__, allow_abbrev=False,
-                              formatter_class=argparse.RawDescriptionHelpFormatter,
-                              usage="compare_methods.py --pairs=FILE [--methods=A,B] [options] "
-                                    "[-- FLAGS OF quatro_register]")
+    parser = Parser(__doc__, usage="compare_methods.py --pairs=FILE [--methods=A,B] [options] "
+                                   "[-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
     parser.add_argument("--methods", metavar="A,B", default="",
                         help="of quatro_register --list_methods")
@@ -198,12 +190,12 @@ def main(args):
                         help="quatro_register (default: that in build/bin)")
     parser.add_argument("--exclude", action="append", default=[], metavar="SET",
                         help="leave out this set; may be repeated")
-    split = args.index("--") if "--" in args else len(args)
-    options, flags = parser.parse_args(args[:split]), args[split + 1:]
+    own, flags = split_flags(args)
+    options = parser.parse_args(own)
     if not options.methods and not options.outside:
-        raise run_pairs.BadInput("there is neither --methods nor --outside")
+        raise BadInput("there is neither --methods nor --outside")
     pairs = run_pairs.read_pairs(options.pairs, options.exclude)
-    known = {(row["source"], row["target"]) for _, row in run_pairs.read_rows(options.pairs)[0]}
+    known = {(row["source"], row["target"]) for _, row in read_rows(options.pairs)[0]}
     methods = options.methods.split(",") if options.methods else []
     if methods:
         check_methods(methods, options.program)
@@ -214,13 +206,13 @@ def main(args):
         try:
             os.makedirs(options.output, exist_ok=True)
         except OSError as error:
-            raise run_pairs.BadInput(f"{options.output}: {error.strerror}") from None
+            raise BadInput(f"{options.output}: {error.strerror}") from None
         inputs = [options.pairs, options.program,
                   *(path for _, path in map(parse_outside, options.outside)),
                   *run_pairs.scans_of(pairs, options.pairs)]
         for method in methods:
             for ending in (".csv", ".csv.part", ".run"):
-                run_pairs.check_writable(os.path.join(options.output, method + ending), inputs)
+                check_writable(os.path.join(options.output, method + ending), inputs)
     rows = [("method", "registered", *(f"{m:g} m {d:g} deg" for m, d in run_pairs.SUCCESS.values()),
              "wrong", "median / mean [m]", "median / mean [deg]", "front end [ms]", "rest [ms]",
              "memory [MB]")]
@@ -236,8 +228,8 @@ def main(args):
                 results = run_pairs.run_all(pairs, pathlib.Path(options.pairs).parent,
                                             options.program, own, 1, done)
                 if path:
-                    run_pairs.write_atomically(run_path(path), json.dumps(run) + "\n")
-                    run_pairs.write_atomically(path, run_pairs.format_results(results))
+                    write_atomically(run_path(path), json.dumps(run) + "\n")
+                    write_atomically(path, run_pairs.format_results(results))
                     done.remove()
         rows.append(summarize(method, results))
     for name, found in outside:
@@ -247,4 +239,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    run_pairs.run_script(main)
+    run_script(main)

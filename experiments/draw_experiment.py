@@ -20,17 +20,17 @@ Figures for which the run has no pairs are left out. Names of the files written 
 to standard output.
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
-import argparse
-import csv
 import math
 import os
 import re
-import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+
+from script_support import (BadInput, Parser, parse_number, read_rows, reason, run_script,
+                            save_picture)
 
 TEXT = ("pair", "set", "bin", "method", "status", "stages_ms")
 NUMBERS = ("distance_m", "true_yaw_deg", "true_tilt_deg", "rotation_error_deg",
@@ -43,29 +43,12 @@ LINES = ("-", "--", "-.", ":")
 FLOOR = 1e-4
 
 
-class BadInput(Exception):
-    pass
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(message)
-
-
-def parse_number(text, where):
-    if text == "":
-        return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise BadInput(f"{where} is no finite number: {text!r}")
-    return value
+def parse_optional(text, where):
+    return None if text == "" else parse_number(text, where)
 
 
 def parse_limit(text):
-    parts = [parse_number(part, "--limit") for part in text.split("/")]
+    parts = [parse_optional(part, "--limit") for part in text.split("/")]
     if len(parts) != 2 or None in parts or min(parts) < 0:
         raise BadInput(f"--limit={text}, must be like 2/10 [m/deg]")
     return parts
@@ -75,7 +58,7 @@ def parse_stages(text, where):
     stages = {}
     for part in filter(None, text.split(";")):
         stage, equals, time = part.partition("=")
-        value = parse_number(time, where) if equals and stage else None
+        value = parse_optional(time, where) if equals and stage else None
         if value is None:
             raise BadInput(f"{where} has no 'stage=ms' in {part!r}")
         stages[stage] = stages.get(stage, 0.0) + value
@@ -85,7 +68,7 @@ def parse_stages(text, where):
 def parse_result(row, where):
     result = {name: row[name] for name in TEXT}
     for name in NUMBERS:
-        result[name] = parse_number(row[name], f"{where}, column {name}")
+        result[name] = parse_optional(row[name], f"{where}, column {name}")
     if (row["rotation_error_deg"] == "") != (row["translation_error_m"] == ""):
         raise BadInput(f"{where} has one error of two")
     result["stages"] = parse_stages(row["stages_ms"], f"{where}, column stages_ms")
@@ -96,28 +79,12 @@ def parse_tilt(row, where):
     """What a result would know of the pair; no method was run."""
     return {**dict.fromkeys(TEXT, ""), **dict.fromkeys(NUMBERS), "stages": {}, "set": row["set"],
             "pair": row["source"] + "-" + row["target"],
-            "true_yaw_deg": parse_number(row["yaw_deg"], f"{where}, column yaw_deg"),
-            "true_tilt_deg": parse_number(row["rollpitch_deg"], f"{where}, column rollpitch_deg")}
+            "true_yaw_deg": parse_optional(row["yaw_deg"], f"{where}, column yaw_deg"),
+            "true_tilt_deg": parse_optional(row["rollpitch_deg"], f"{where}, column rollpitch_deg")}
 
 
-def read_rows(path, columns, parse):
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
-            names = reader.fieldnames or []
-            for name in columns:
-                if name not in names:
-                    raise BadInput(f"{path}: there is no column {name}")
-            rows = []
-            for row in reader:
-                where = f"{path}: line {reader.line_num}"
-                if None in row or None in row.values():
-                    raise BadInput(f"{where} must have {len(names)} columns")
-                rows.append(parse(row, where))
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror}") from None
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise BadInput(f"{path}: {error}") from None
+def read_parsed(path, columns, parse):
+    rows = [parse(row, f"{path}: line {line}") for line, row in read_rows(path, columns)[0]]
     if not rows:
         raise BadInput(f"{path}: has no results")
     return rows
@@ -127,8 +94,8 @@ def read_results(folder):
     path = os.path.join(folder, "results.csv")
     tilts = os.path.join(folder, "tilts.csv")
     if os.path.exists(tilts) and not os.path.exists(path):
-        return read_rows(tilts, ("set", "source", "target", "yaw_deg", "rollpitch_deg"), parse_tilt)
-    return read_rows(path, (*TEXT, *NUMBERS), parse_result)
+        return read_parsed(tilts, ("set", "source", "target", "yaw_deg", "rollpitch_deg"), parse_tilt)
+    return read_parsed(path, (*TEXT, *NUMBERS), parse_result)
 
 
 def names_of(results, key):
@@ -428,8 +395,7 @@ FIGURES = {"success": draw_success, "bins": draw_bins, "distance": draw_distance
 
 
 def main(args):
-    parser = Parser(prog="draw_experiment.py", description=__doc__, allow_abbrev=False,
-                    formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(__doc__)
     parser.add_argument("run", metavar="RUN", help="folder with results.csv or tilts.csv")
     parser.add_argument("--output", metavar="FOLDER", help="for the figures (default: RUN/figures)")
     parser.add_argument("--figures", default=",".join(FIGURES), metavar="A,B",
@@ -449,7 +415,7 @@ def main(args):
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror}") from None
+        raise BadInput(f"{folder}: {reason(error)}") from None
     # Fonts that journals take.
     plt.rcParams.update({"pdf.fonttype": 42, "font.size": 9})
     for name in chosen:
@@ -458,17 +424,10 @@ def main(args):
             continue
         for suffix, metadata in (("pdf", {"CreationDate": None}), ("png", {"Software": None})):
             path = os.path.join(folder, f"{name}.{suffix}")
-            try:
-                figure.savefig(path, dpi=150, metadata=metadata)
-            except OSError as error:
-                raise BadInput(f"{path}: {error.strerror}") from None
+            save_picture(figure, path, dpi=150, metadata=metadata)
             print(path)
         plt.close(figure)
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except BadInput as problem:
-        print(f"draw_experiment.py: {problem}", file=sys.stderr)
-        sys.exit(2)
+    run_script(main)

@@ -17,8 +17,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-import run_pairs
-from run_pairs import BadInput
+from script_support import BadInput, check_picture, read_rows, run_script, save_picture
 
 NUM_CURVES = 5  # Of the iterations, evenly, the last among them.
 
@@ -26,7 +25,7 @@ NUM_CURVES = 5  # Of the iterations, evenly, the last among them.
 def read_film(path):
     film = {"weight": {}, "curve": {}, "yaw": {}, "mu": {}}
     ends = {"truncated": [], "is_true": [], "gnc": [], "exact": [], "truth": []}
-    for line, row in run_pairs.read_rows(path)[0]:
+    for line, row in read_rows(path)[0]:
         try:
             point = float(row["x"]), float(row["y"])
             if row["kind"] in ends:
@@ -93,15 +92,15 @@ def draw_costs(axes, film):
 def main(arguments):
     if len(arguments) < 2:
         raise BadInput("give FILM.csv, one or more, and PICTURE.png")
-    run_pairs.check_picture(arguments[-1], arguments[:-1])
+    check_picture(arguments[-1], arguments[:-1])
     films = [read_film(path) for path in arguments[:-1]]
     figure, rows = plt.subplots(len(films), 2, figsize=(12.5, 3.9 * len(films)), squeeze=False,
                                 layout="constrained", width_ratios=(1, 1.7))
     for (left, right), film in zip(rows, films):
         draw_weights(left, film)
         draw_costs(right, film)
-    run_pairs.save_picture(figure, arguments[-1], dpi=110, metadata={"Software": None})
+    save_picture(figure, arguments[-1], dpi=110, metadata={"Software": None})
 
 
 if __name__ == "__main__":
-    run_pairs.run_script(main)
+    run_script(main)

@@ -13,14 +13,13 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-import run_pairs
-from run_pairs import BadInput
+from script_support import BadInput, check_picture, read_rows, run_script, save_picture
 
 
 def read_curves(path):
     """mu -> (residual, loss) of each point."""
     curves = {}
-    for line, row in run_pairs.read_rows(path, ("mu", "residual", "loss"))[0]:
+    for line, row in read_rows(path, ("mu", "residual", "loss"))[0]:
         try:
             float(row["mu"])
             curves.setdefault(row["mu"], []).append((float(row["residual"]), float(row["loss"])))
@@ -36,7 +35,7 @@ def main(arguments):
     if len(arguments) != 2:
         raise BadInput("give TABLE.csv and PICTURE.png")
     table, picture = arguments
-    run_pairs.check_picture(picture, [table])
+    check_picture(picture, [table])
     curves = read_curves(table)
 
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
@@ -55,8 +54,8 @@ def main(arguments):
     axes.set_ylabel(r"$\rho_\mu(r^2 / c^2)$")
     axes.set_title("Truncated least squares and its surrogates")
     axes.legend(loc="lower right")
-    run_pairs.save_picture(figure, picture, dpi=120)
+    save_picture(figure, picture, dpi=120)
 
 
 if __name__ == "__main__":
-    run_pairs.run_script(main)
+    run_script(main)

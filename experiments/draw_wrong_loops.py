@@ -14,8 +14,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-import run_pairs
-from run_pairs import BadInput
+from script_support import BadInput, check_picture, read_rows, run_script, save_picture
 
 STYLES = {
     "gnc": ("GNC", "black", "o", "-"),
@@ -35,7 +34,7 @@ def read_curves(paths):
     """(world, noise) -> loss -> (share, right, error) of each point."""
     curves = {}
     for path in paths:
-        rows, _ = run_pairs.read_rows(path, COLUMNS)
+        rows, _ = read_rows(path, COLUMNS)
         if not rows:
             raise BadInput(f"{path}: there are no lines; see --protocol=wrong_loops of "
                            "quatro_pose_graph")
@@ -55,7 +54,7 @@ def main(arguments):
     if len(arguments) < 2:
         raise BadInput("give TABLE.csv, one or more, and PICTURE.png")
     *tables, picture = arguments
-    run_pairs.check_picture(picture, tables)
+    check_picture(picture, tables)
     curves = read_curves(tables)
 
     figure, axes = plt.subplots(2, len(curves), figsize=(1 + 3.5 * len(curves), 6), layout="constrained",
@@ -74,8 +73,8 @@ def main(arguments):
     axes[0, 0].set_ylabel("runs within 0.1 m [%]")
     axes[1, 0].set_ylabel("largest error, median [m]")
     axes[0, 0].legend(loc="center right")
-    run_pairs.save_picture(figure, picture, dpi=100)
+    save_picture(figure, picture, dpi=100)
 
 
 if __name__ == "__main__":
-    run_pairs.run_script(main)
+    run_script(main)

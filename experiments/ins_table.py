@@ -31,7 +31,8 @@ import statistics
 import sys
 
 import run_pairs
-from run_pairs import BadInput
+from script_support import (BadInput, Parser, check_writable, parse_number, read_rows, run_script,
+                            split_flags, write_atomically)
 
 MODES = ("none", "relative", "leveled", "fused")
 RUNS = tuple((mode, polish) for mode in MODES for polish in ("off", "on"))
@@ -76,16 +77,6 @@ def tilt_between_deg(a, b):
     return math.degrees(math.atan2(math.hypot(*cross), sum(x * y for x, y in zip(u, v))))
 
 
-def parse_number(text, where):
-    try:
-        value = float(text)
-    except (TypeError, ValueError):
-        raise BadInput(f"{where}: {text!r} is not a number") from None
-    if not math.isfinite(value):
-        raise BadInput(f"{where}: {text!r} is not finite")
-    return value
-
-
 def parse_attitudes(row, names, where):
     if RPY[0] in names:
         attitudes = []
@@ -105,7 +96,7 @@ def parse_attitudes(row, names, where):
 
 def read_ins(path, is_own_file):
     """(source, target) -> (source's attitude, target's, standard deviation or None), in degrees."""
-    rows, names = run_pairs.read_rows(path, ("source", "target"))
+    rows, names = read_rows(path, ("source", "target"))
     ways = [RPY, QUATERNION] if is_own_file else [RPY]
     if not any(set(way) <= set(names) for way in ways):
         missing = " nor ".join(",".join(way) for way in ways)
@@ -186,22 +177,18 @@ def format_csv(pairs, rows):
 
 
 def parse_args(args):
-    parser = run_pairs.Parser(prog="ins_table.py", description=__doc__, allow_abbrev=False,
-                              formatter_class=run_pairs.argparse.RawDescriptionHelpFormatter,
-                              usage="ins_table.py --pairs=FILE [options] "
-                                    "[-- FLAGS OF quatro_register]")
+    parser = Parser(__doc__, usage="ins_table.py --pairs=FILE [options] "
+                                   "[-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
     parser.add_argument("--ins", metavar="FILE.csv", help="what the INS says (default: --pairs)")
     parser.add_argument("--output", metavar="FILE.csv", help="file for the numbers as well")
-    default = pathlib.Path(__file__).resolve().parent.parent / "build" / "bin" / "quatro_register"
-    parser.add_argument("--program", default=str(default), metavar="FILE",
+    parser.add_argument("--program", default=str(run_pairs.DEFAULT_PROGRAM), metavar="FILE",
                         help="quatro_register (default: that in build/bin)")
     parser.add_argument("--jobs", default="1", metavar="N", help="runs at a time (default: 1)")
-    split = args.index("--") if "--" in args else len(args)
-    options = parser.parse_args(args[:split])
+    own, flags = split_flags(args)
+    options = parser.parse_args(own)
     if not re.fullmatch("[1-9][0-9]{0,3}", options.jobs):
         raise BadInput(f"--jobs={options.jobs}: must be a whole number > 0")
-    flags = args[split + 1:]
     for flag in flags:
         if flag.lstrip("-").split("=")[0] in OWN_FLAGS:
             raise BadInput(f"{flag}: is not for this table, which sets it or has no use for it")
@@ -211,13 +198,13 @@ def parse_args(args):
 def main(args):
     options, flags = parse_args(args)
     if options.output:
-        run_pairs.check_writable(options.output, [options.pairs, options.ins or options.pairs,
-                                                  options.program])
+        check_writable(options.output,
+                       [options.pairs, options.ins or options.pairs, options.program])
     ins = read_ins(options.ins or options.pairs, bool(options.ins))
     pairs = [pair for pair in run_pairs.read_pairs(options.pairs, [])
              if (pair.source, pair.target) in ins]
     if options.output:
-        run_pairs.check_writable(options.output, run_pairs.scans_of(pairs, options.pairs))
+        check_writable(options.output, run_pairs.scans_of(pairs, options.pairs))
     if not pairs:
         raise BadInput(f"{options.ins}: has none of the pairs in {options.pairs}")
     for pair in pairs:
@@ -230,9 +217,9 @@ def main(args):
     rows = tabulate(pairs, ins, pathlib.Path(options.pairs).parent, options.program, flags,
                     int(options.jobs))
     if options.output:
-        run_pairs.write_atomically(options.output, format_csv(pairs, rows))
+        write_atomically(options.output, format_csv(pairs, rows))
     sys.stdout.write(format_table(pairs, rows))
 
 
 if __name__ == "__main__":
-    run_pairs.run_script(main)
+    run_script(main)

@@ -12,13 +12,13 @@ list is for run_pairs.py and holds absolute paths.
 
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
-import argparse
 import csv
 import io
 import itertools
 import pathlib
 
-import run_pairs
+from run_pairs import read_pairs, scans_of
+from script_support import BadInput, Parser, check_writable, run_script, write_atomically
 
 
 def find_places(pairs, same):
@@ -48,8 +48,7 @@ def find_places(pairs, same):
 
 
 def main(args):
-    parser = run_pairs.Parser(prog="list_wrong_pairs.py", description=__doc__, allow_abbrev=False,
-                              formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(__doc__)
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
     parser.add_argument("--output", metavar="FILE.csv", required=True, help="the list to write")
     parser.add_argument("--exclude", action="append", default=[], metavar="SET",
@@ -60,15 +59,15 @@ def main(args):
                         help="pairs of any two places (default: 3)")
     options = parser.parse_args(args)
     if options.each < 1:
-        raise run_pairs.BadInput(f"--each={options.each}: must be > 0")
-    run_pairs.check_writable(options.output, [options.pairs])
-    pairs = run_pairs.read_pairs(options.pairs, options.exclude)
-    run_pairs.check_writable(options.output, run_pairs.scans_of(pairs, options.pairs))
+        raise BadInput(f"--each={options.each}: must be > 0")
+    check_writable(options.output, [options.pairs])
+    pairs = read_pairs(options.pairs, options.exclude)
+    check_writable(options.output, scans_of(pairs, options.pairs))
     same = [group.split(",") for group in options.same]
     unknown = {name for group in same for name in group} - {pair.set for pair in pairs}
     unknown -= set(options.exclude)
     if unknown:
-        raise run_pairs.BadInput(f"--same={min(unknown)}: {options.pairs} has no such set")
+        raise BadInput(f"--same={min(unknown)}: {options.pairs} has no such set")
     places = find_places(pairs, same)
     folder = pathlib.Path(options.pairs).resolve().parent
     text = io.StringIO()
@@ -80,9 +79,9 @@ def main(args):
         for k in range(num_listed):
             source, target = scans[k * len(scans) // num_listed]
             writer.writerow(("different places", folder / source, folder / target))
-    run_pairs.write_atomically(options.output, text.getvalue())
+    write_atomically(options.output, text.getvalue())
     print(f"{len(places)} places, {text.getvalue().count(chr(10)) - 1} pairs")
 
 
 if __name__ == "__main__":
-    run_pairs.run_script(main)
+    run_script(main)

@@ -11,11 +11,11 @@ what says why: how many matches agreed, and what Quatro misses that others do no
 Runs that are missing are told as such.
 Exit code: 0; 2 if FOLDER has none of the runs, with one line that says so.
 """
-import csv
 import json
 import os
 import statistics
-import sys
+
+from script_support import BadInput, read_rows, reason, run_script
 
 RUNS = ("table_one", "table_one_paper", "table_two", "table_three", "yaw", "timing", "synthetic")
 TITLES = {
@@ -39,19 +39,21 @@ MORE_FIGURES = {"Relative roll-pitch and yaw of loops up to 12 m": "tilt/figures
                 "Surrogates of truncated least squares": "surrogates.png"}
 
 
-class BadInput(Exception):
-    pass
+def read_csv(path, needed=("method",)):
+    rows, columns = read_rows(path, needed)
+    return columns, [row for _, row in rows]
 
 
-def read_csv(path):
+def read_manifest(path):
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except OSError as failure:
-        raise BadInput(f"{path}: {failure.strerror}") from failure
-    if not rows:
-        raise BadInput(f"{path}: is empty")
-    return rows[0], [dict(zip(rows[0], row)) for row in rows[1:]]
+        with open(path, encoding="utf-8") as file:
+            manifest = json.load(file)
+    except (OSError, ValueError) as error:
+        raise BadInput(f"{path}: {reason(error)}") from None
+    for name in ("version", "commit", "start_time"):
+        if not isinstance(manifest, dict) or name not in manifest:
+            raise BadInput(f"{path}: has no {name!r}; is it of an experiment?")
+    return manifest
 
 
 def number(row, column):
@@ -144,7 +146,7 @@ def reasons(name, folder):
     if not os.path.exists(path):
         return
     by_method = {}
-    for row in read_csv(path)[1]:
+    for row in read_csv(path, ("method", "pair"))[1]:
         by_method.setdefault(row["method"], {})[row["pair"]] = row
     ours = by_method.get("quatro", {})
     if not ours:
@@ -162,23 +164,22 @@ def reasons(name, folder):
                    "has.")
 
 
-def write_run(name, folder, out):
+def write_run(name, folder):
     columns, rows = read_csv(os.path.join(folder, TABLES[name]))
-    print(f"\n## {TITLES[name]}\n", file=out)
+    print(f"\n## {TITLES[name]}\n")
     manifest = os.path.join(folder, "manifest.json")
     if os.path.exists(manifest):
-        with open(manifest, encoding="utf-8") as file:
-            made = json.load(file)
+        made = read_manifest(manifest)
         print(f"`{name}/manifest.json`: version {made['version']}, commit {made['commit']}, "
-              f"{made['start_time']}.\n", file=out)
-    print(markdown(columns, rows), file=out)
+              f"{made['start_time']}.\n")
+    print(markdown(columns, rows))
     for figure in FIGURES.get(name, ()):
         path = f"figures/{figure}.png"
         if os.path.exists(os.path.join(folder, path)):
-            print(f"\n![{figure}]({name}/{path})", file=out)
+            print(f"\n![{figure}]({name}/{path})")
 
 
-def main(arguments, out):
+def main(arguments):
     if len(arguments) != 1:
         raise BadInput("give the folder of reproduce.sh, and it alone")
     root = arguments[0]
@@ -195,29 +196,25 @@ def main(arguments, out):
     if "table_two" in present:
         findings += drift_findings(
             read_csv(os.path.join(root, "table_two", TABLES["table_two"]))[1])
-    print("# The paper's tables, run again\n\n| the paper | here | |\n|---|---|---|", file=out)
+    print("# The paper's tables, run again\n\n| the paper | here | |\n|---|---|---|")
     for line in findings:
-        print(line, file=out)
+        print(line)
     why = [line for name in ("table_one", "table_one_paper") if name in present
            for line in reasons(name, os.path.join(root, name))]
     if why:
         print("\nWhy: the more matches are consistent, the more methods do everything and tie; a "
-              "pair that all of them miss has too few for any.\n", file=out)
+              "pair that all of them miss has too few for any.\n")
         for line in why:
-            print(f"- {line}", file=out)
+            print(f"- {line}")
     for name in RUNS:
         if name in present:
-            write_run(name, os.path.join(root, name), out)
+            write_run(name, os.path.join(root, name))
         else:
-            print(f"\n## {TITLES[name]}\n\nNot run.", file=out)
+            print(f"\n## {TITLES[name]}\n\nNot run.")
     for title, path in MORE_FIGURES.items():
         if os.path.exists(os.path.join(root, path)):
-            print(f"\n## {title}\n\n![{title}]({path})", file=out)
+            print(f"\n## {title}\n\n![{title}]({path})")
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:], sys.stdout)
-    except BadInput as failure:
-        print(f"report_paper.py: {failure}", file=sys.stderr)
-        sys.exit(2)
+    run_script(main)

@@ -19,7 +19,6 @@ stopped is gone on with by the same command: what is done is in the output's
 name with .part added.
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
-import argparse
 import collections
 import concurrent.futures
 import csv
@@ -37,6 +36,9 @@ import sys
 import tempfile
 import time
 
+from script_support import (BadInput, Parser, check_writable, parse_number, read_rows, run_script,
+                            split_flags, write_atomically)
+
 POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
 COUNTS = ("source_voxels", "target_voxels", "correspondences", "clique", "rotation_inliers",
           "translation_inliers", "agreeing")
@@ -50,15 +52,6 @@ RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "ya
 DEFAULT_PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build/bin/quatro_register"
 
 Pair = collections.namedtuple("Pair", "set source target pose")  # pose: (R, t) or None
-
-
-class BadInput(Exception):
-    pass
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(message)
 
 
 def rotation_from_quaternion(x, y, z, w):
@@ -79,33 +72,11 @@ def yaw_deg(rotation):
 
 
 def parse_pose(row, where):
-    values = []
-    for name in POSE:
-        try:
-            values.append(float(row[name]))
-        except (TypeError, ValueError):
-            raise BadInput(f"{where}, column {name}: {row[name]!r} is not a number") from None
-        if not math.isfinite(values[-1]):
-            raise BadInput(f"{where}, column {name}: {row[name]!r} is not finite")
+    values = [parse_number(row[name], f"{where}, column {name}") for name in POSE]
     norm = math.hypot(*values[3:])
     if abs(norm - 1.0) > 1e-3:
         raise BadInput(f"{where}: the quaternion has length {norm:g}, must be 1")
     return rotation_from_quaternion(*(q / norm for q in values[3:])), values[:3]
-
-
-def read_rows(path, columns=()):
-    """(line, row) of each, and the names of the columns, of which `columns` must be there."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
-            names = reader.fieldnames or []
-            rows = [(reader.line_num, row) for row in reader]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise BadInput(f"{path}: {getattr(error, 'strerror', None) or error}") from None
-    for name in columns:
-        if name not in names:
-            raise BadInput(f"{path}: there is no column {name}")
-    return rows, names
 
 
 def read_pairs(path, excluded):
@@ -345,61 +316,14 @@ def check_program(path):
         raise BadInput(f"{path}: is not a program; build it or name it by --program")
 
 
-def check_writable(path, inputs=()):
-    """Before the work that is to be written; never over what it is made of."""
-    if os.path.isdir(path):
-        raise BadInput(f"{path}: is a directory, must be a file to write")
-    folder = os.path.dirname(path) or "."
-    if not os.path.isdir(folder):
-        raise BadInput(f"{path}: there is no folder {folder}")
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise BadInput(f"{path}: may not write into folder {folder}")
-    if os.path.realpath(path) in map(os.path.realpath, inputs):
-        raise BadInput(f"{path}: would be overwritten, but is read here; name another file")
-
-
 def scans_of(pairs, path):
     """Of a list of that path."""
     folder = pathlib.Path(path).parent
     return {folder / scan for pair in pairs for scan in (pair.source, pair.target)}
 
 
-def check_picture(path, inputs):
-    check_writable(path, inputs)
-    from matplotlib.backend_bases import FigureCanvasBase
-    endings = FigureCanvasBase.get_supported_filetypes()
-    if os.path.splitext(path)[1][1:].lower() not in endings:
-        raise BadInput(f"{path}: a picture's name ends with one of .{' .'.join(endings)}")
-
-
-def save_picture(figure, path, **options):
-    picture = io.BytesIO()
-    figure.savefig(picture, format=os.path.splitext(path)[1][1:].lower(), **options)
-    write_atomically(path, picture.getvalue())
-
-
-def write_atomically(path, content):
-    """Text or bytes."""
-    data = content.encode() if isinstance(content, str) else content
-    try:
-        descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path) or ".",
-                                                 prefix=os.path.basename(path) + ".tmp.")
-        try:
-            with open(descriptor, "wb") as file:
-                file.write(data)
-                os.fchmod(file.fileno(), 0o644)
-            os.replace(temporary, path)
-        except BaseException:
-            os.unlink(temporary)
-            raise
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror}") from None
-
-
 def parse_args(args):
-    parser = Parser(prog="run_pairs.py", description=__doc__, allow_abbrev=False,
-                    formatter_class=argparse.RawDescriptionHelpFormatter,
-                    usage="run_pairs.py --pairs=FILE [options] [-- FLAGS OF quatro_register]")
+    parser = Parser(__doc__, usage="run_pairs.py --pairs=FILE [options] [-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
     parser.add_argument("--output", metavar="FILE.csv", help="file for one line per pair")
     parser.add_argument("--program", default=str(DEFAULT_PROGRAM), metavar="FILE",
@@ -408,11 +332,11 @@ def parse_args(args):
                         help="leave out this set; may be repeated")
     parser.add_argument("--jobs", default="1", metavar="N",
                         help="pairs at a time (default: 1; more make the times longer)")
-    split = args.index("--") if "--" in args else len(args)
-    options = parser.parse_args(args[:split])
+    own, flags = split_flags(args)
+    options = parser.parse_args(own)
     if not re.fullmatch("[1-9][0-9]{0,3}", options.jobs):
         raise BadInput(f"--jobs={options.jobs}: must be a whole number > 0")
-    return options, args[split + 1:]
+    return options, flags
 
 
 def main(args):
@@ -434,24 +358,6 @@ def main(args):
             write_atomically(options.output, format_results(results))
             done.remove()
     sys.stdout.write(format_summary(results))
-
-
-def run_script(main):
-    """main(arguments), and what is wrong in one line."""
-    try:
-        main(sys.argv[1:])
-        sys.stdout.flush()
-        return
-    except BadInput as error:
-        problem, code = error, 2
-    except OSError as error:
-        problem, code = f"{error.filename or 'standard output'}: {error.strerror}", 2
-        # Python's own flush at the end would fail once more.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    except KeyboardInterrupt:
-        problem, code = "interrupted", 130
-    print(f"{os.path.basename(sys.argv[0])}: {problem}", file=sys.stderr)
-    sys.exit(code)
 
 
 if __name__ == "__main__":

@@ -15,14 +15,14 @@ over the bits of a graph. The picture, for which Matplotlib is needed
 (with_python.sh finds a Python that has it), shows times over N.
 Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
 """
-import argparse
 import collections
 import json
 import math
-import os
 import re
 import statistics
 import sys
+
+from script_support import BadInput, Parser, check_picture, reason, run_script, save_picture
 
 OURS, LIMIT = "quatro", "limit"
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
@@ -35,15 +35,6 @@ NOT_COUNTERS = {"name", "run_name", "run_type", "family_index", "per_family_inst
 
 # Of one benchmark: the time is None where it was not run, and `error` says why.
 Measured = collections.namedtuple("Measured", "ms error counters")
-
-
-class BadInput(Exception):
-    pass
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(message)
 
 
 def parse_name(name, where):
@@ -81,10 +72,10 @@ def read_run(path, clock):
     try:
         with open(path, encoding="utf-8") as file:
             run = json.load(file)
-    except OSError as problem:
-        raise BadInput(f"{path}: {problem.strerror}") from None
-    except ValueError as problem:
-        raise BadInput(f"{path}: is not JSON: {problem}") from None
+    except OSError as error:
+        raise BadInput(f"{path}: {reason(error)}") from None
+    except ValueError as error:
+        raise BadInput(f"{path}: is not JSON: {error}") from None
     entries = run.get("benchmarks") if isinstance(run, dict) else None
     if not isinstance(entries, list) or not entries:
         raise BadInput(f"{path}: has no benchmarks")
@@ -202,11 +193,7 @@ def draw(rows, path):
     curves = curves_over_size(rows)
     if not curves:
         raise BadInput("--picture: no stage was measured at two sizes N or more")
-    try:
-        import matplotlib
-    except ImportError:
-        raise BadInput("--picture: this Python has no Matplotlib; run by with_python.sh "
-                       "matplotlib") from None
+    import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(figsize=(7.0, 5.0), layout="constrained")
@@ -216,22 +203,18 @@ def draw(rows, path):
     axes.set(xscale="log", yscale="log", xlabel="matches N", ylabel="time [ms]")
     axes.grid(True, which="major", alpha=0.4)
     axes.legend()
-    partial = f"{path}.part"
-    try:
-        figure.savefig(partial, format="png", dpi=150)
-        os.replace(partial, path)
-    except OSError as problem:
-        raise BadInput(f"{path}: {problem.strerror}") from None
+    save_picture(figure, path, dpi=150)
 
 
 def main(args):
-    parser = Parser(prog="tabulate_benchmark.py", description=__doc__, allow_abbrev=False,
-                    formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(__doc__)
     parser.add_argument("json", metavar="RUN.json", help="by quatro_benchmark --benchmark_out")
     parser.add_argument("--picture", metavar="FILE.png", help="times over N")
     parser.add_argument("--clock", choices=("real", "cpu"), default="real",
                         help="which time (default: real)")
     options = parser.parse_args(args)
+    if options.picture:
+        check_picture(options.picture, [options.json])
     context, rows = read_run(options.json, f"{options.clock}_time")
     table = format_table(make_table(rows))
     if options.picture:
@@ -242,8 +225,4 @@ def main(args):
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except BadInput as problem:
-        print(f"tabulate_benchmark.py: {problem}", file=sys.stderr)
-        sys.exit(2)
+    run_script(main)

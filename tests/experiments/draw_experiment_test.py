@@ -99,7 +99,7 @@ class DrawExperimentTest(unittest.TestCase):
         tilts = self.folder / "tilts.csv"
         tilts.write_text("set,source,target,yaw_deg,rollpitch_deg\n00,7,3,-170,1\n00,8,3,10,x\n",
                          encoding="utf-8")
-        self.expect_refused("tilts.csv: line 3, column rollpitch_deg is no finite number: 'x'")
+        self.expect_refused("tilts.csv: line 3, column rollpitch_deg: 'x' is not a number")
         tilts.write_text("set,source,target,yaw_deg,rollpitch_deg\n00,7,3,-170,1\n",
                          encoding="utf-8")
         self.assertEqual([file.name for file in self.draw()], ["tilt.pdf", "tilt.png"])
@@ -122,9 +122,9 @@ class DrawExperimentTest(unittest.TestCase):
         self.write(text_of(ROWS, [name for name in COLUMNS if name != "stages_ms"]))
         self.expect_refused("there is no column stages_ms")
         self.write(text_of([row(), row(distance_m="x")]))
-        self.expect_refused("line 3, column distance_m is no finite number: 'x'")
+        self.expect_refused("line 3, column distance_m: 'x' is not a number")
         self.write(text_of([row(total_ms="nan")]))
-        self.expect_refused("line 2, column total_ms is no finite number: 'nan'")
+        self.expect_refused("line 2, column total_ms: 'nan' is not finite")
         self.write(text_of([row(stages_ms="voxels")]))
         self.expect_refused("line 2, column stages_ms has no 'stage=ms' in 'voxels'")
         self.write(text_of([row()]) + "a,b\n")

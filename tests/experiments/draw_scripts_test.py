@@ -18,7 +18,7 @@ import draw_gnc_film  # noqa: E402
 import draw_registration  # noqa: E402
 import draw_surrogates  # noqa: E402
 import draw_wrong_loops  # noqa: E402
-import run_pairs  # noqa: E402
+import script_support  # noqa: E402
 
 LOOPS = ",".join(draw_wrong_loops.COLUMNS) + "\n"
 RESULTS = ",".join(calibrate_verdict.COLUMNS) + "\n"
@@ -39,7 +39,7 @@ class DrawScriptsTest(unittest.TestCase):
         return str(path)
 
     def expect_refused(self, problem, script, *args):
-        with self.assertRaises(run_pairs.BadInput) as refused:
+        with self.assertRaises(script_support.BadInput) as refused:
             script.main([str(arg) for arg in args])
         self.assertIn(problem, str(refused.exception))
         self.assertNotIn("\n", str(refused.exception))
@@ -55,7 +55,7 @@ class DrawScriptsTest(unittest.TestCase):
                 self.expect_refused("table.csv: ", script, self.table(text), self.picture)
         for script, text, problem in (
                 (draw_surrogates, "mu,residual,loss\n", "there are no curves"),
-                (draw_surrogates, "mu,residual,loss\n1,2\n", "line 2 is not of"),
+                (draw_surrogates, "mu,residual,loss\n1,2\n", "line 2 must have 3 columns"),
                 (draw_surrogates, "mu,residual,loss\nx,2,3\n", "line 2 is not of"),
                 (draw_wrong_loops, LOOPS, "there are no lines"),
                 (draw_wrong_loops, LOOPS + "w,1,1,gnc,0.1,1,0,1\n", "line 2 is not of"),
@@ -80,7 +80,7 @@ class DrawScriptsTest(unittest.TestCase):
     def test_bad_results_are_told(self):
         for content, problem in (("", "there is no column"), (RESULTS, "there are no pairs"),
                                  (b"\xff", "'utf-8' codec"),
-                                 (RESULTS + "s,a,b\n", "line 2 is not of"),
+                                 (RESULTS + "s,a,b\n", "line 2 must have 7 columns"),
                                  (RESULTS + "s,a,b,registered,1,0.9,m=x\n", "line 2 is not of"),
                                  (RESULTS + "s,a,b,ambiguous,,,\n", "there are no pairs")):
             self.expect_refused(problem, calibrate_verdict, self.table(content))

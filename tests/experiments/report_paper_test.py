@@ -98,6 +98,19 @@ class ReportPaperTest(unittest.TestCase):
         self.assertEqual(run.stderr.count("\n"), 1)
         self.assertIn("holds none of the runs", run.stderr)
 
+    def test_what_is_not_of_an_experiment_is_told_in_one_line(self):
+        self.write("table_one/tables/table_one.csv", TABLE_ONE.format(quatro="99.50"))
+        for name, text, problem in (
+                ("table_two/table_two.csv", "a,b\n1,2\n", "there is no column method"),
+                ("table_one/manifest.json", "{", "manifest.json: "),
+                ("table_one/manifest.json", "{}", "has no 'version'"),
+                ("table_one/results.csv", "method\nquatro\n", "there is no column pair")):
+            self.write(name, text)
+            run = self.run_script()
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), run.stderr)
+            self.assertIn(problem, run.stderr)
+            (pathlib.Path(self.folder.name) / name).unlink()
+
 
 if __name__ == "__main__":
     unittest.main()

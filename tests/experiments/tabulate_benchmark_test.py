@@ -121,6 +121,10 @@ class TabulateBenchmarkTest(unittest.TestCase):
         self.expect_refused("real_time = 0.0 ms", self.write([entry("a/quatro", 0.0)]))
         self.expect_refused("real_time = 1.0 h", self.write([entry("a/quatro", 1.0, "h")]))
         self.expect_refused("two sizes", self.write([entry("a/quatro/N:5", 1.0)]), "--picture=a.png")
+        path = self.write([entry(f"a/quatro/N:{n}", 1.0) for n in (10, 100)])
+        self.expect_refused("would be overwritten", path, f"--picture={path}")
+        self.assertIn("quatro", pathlib.Path(path).read_text(encoding="utf-8"))
+        self.expect_refused("there is no folder", path, "--picture=none/a.png")
         self.expect_refused("--clock", self.write([entry("a/quatro", 1.0)]), "--clock=sun")
         self.expect_refused("unrecognized", self.write([entry("a/quatro", 1.0)]), "--frame=3")
 

@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""What the scripts here share: how they read flags and files, write, and end.
+
+A script is a main(arguments), run by run_script; what is wrong with a flag or a file
+it raises as BadInput, whose text is the one line that the user sees.
+"""
+import argparse
+import csv
+import io
+import math
+import os
+import sys
+import tempfile
+
+
+class BadInput(Exception):
+    pass
+
+
+class Parser(argparse.ArgumentParser):
+    def __init__(self, description, **options):
+        super().__init__(description=description, allow_abbrev=False,
+                         formatter_class=argparse.RawDescriptionHelpFormatter, **options)
+
+    def error(self, message):
+        raise BadInput(message)
+
+
+def split_flags(arguments):
+    """Those before "--" and those after it, which are of a program that is run."""
+    split = arguments.index("--") if "--" in arguments else len(arguments)
+    return arguments[:split], arguments[split + 1:]
+
+
+def reason(error):
+    """Of an OSError or another one, without its path."""
+    return getattr(error, "strerror", None) or str(error)
+
+
+def parse_number(text, where):
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        raise BadInput(f"{where}: {text!r} is not a number") from None
+    if not math.isfinite(value):
+        raise BadInput(f"{where}: {text!r} is not finite")
+    return value
+
+
+def read_rows(path, columns=()):
+    """(line, row) of each, and the names of the columns, of which `columns` must be there."""
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as file:
+            reader = csv.DictReader(file)
+            names = reader.fieldnames or []
+            rows = [(reader.line_num, row) for row in reader]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise BadInput(f"{path}: {reason(error)}") from None
+    for name in columns:
+        if name not in names:
+            raise BadInput(f"{path}: there is no column {name}")
+    for line, row in rows:
+        if None in row or None in row.values():
+            raise BadInput(f"{path}: line {line} must have {len(names)} columns")
+    return rows, names
+
+
+def check_writable(path, inputs=()):
+    """Before the work that is to be written; never over what it is made of."""
+    if os.path.isdir(path):
+        raise BadInput(f"{path}: is a directory, must be a file to write")
+    folder = os.path.dirname(path) or "."
+    if not os.path.isdir(folder):
+        raise BadInput(f"{path}: there is no folder {folder}")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise BadInput(f"{path}: may not write into folder {folder}")
+    if os.path.realpath(path) in map(os.path.realpath, inputs):
+        raise BadInput(f"{path}: would be overwritten, but is read here; name another file")
+
+
+def check_picture(path, inputs):
+    check_writable(path, inputs)
+    try:
+        from matplotlib.backend_bases import FigureCanvasBase
+    except ImportError:
+        raise BadInput(f"{path}: this Python has no Matplotlib for it; run by with_python.sh "
+                       "matplotlib") from None
+    endings = FigureCanvasBase.get_supported_filetypes()
+    if os.path.splitext(path)[1][1:].lower() not in endings:
+        raise BadInput(f"{path}: a picture's name ends with one of .{' .'.join(endings)}")
+
+
+def save_picture(figure, path, **options):
+    picture = io.BytesIO()
+    figure.savefig(picture, format=os.path.splitext(path)[1][1:].lower(), **options)
+    write_atomically(path, picture.getvalue())
+
+
+def write_atomically(path, content):
+    """Text or bytes."""
+    data = content.encode() if isinstance(content, str) else content
+    try:
+        descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path) or ".",
+                                                 prefix=os.path.basename(path) + ".tmp.")
+        try:
+            with open(descriptor, "wb") as file:
+                file.write(data)
+                os.fchmod(file.fileno(), 0o644)
+            os.replace(temporary, path)
+        except BaseException:
+            os.unlink(temporary)
+            raise
+    except OSError as error:
+        raise BadInput(f"{path}: {reason(error)}") from None
+
+
+def run_script(main):
+    """main(arguments), and what is wrong in one line."""
+    try:
+        main(sys.argv[1:])
+        sys.stdout.flush()
+        return
+    except BadInput as error:
+        problem, code = error, 2
+    except OSError as error:
+        problem, code = f"{error.filename or 'standard output'}: {reason(error)}", 2
+        # Python's own flush at the end would fail once more.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    except KeyboardInterrupt:
+        problem, code = "interrupted", 130
+    print(f"{os.path.basename(sys.argv[0])}: {problem}", file=sys.stderr)
+    sys.exit(code)
