@@ -110,6 +110,21 @@ ceres::LossFunction* MakeLoss(LoopLoss loss, double bound) {
   return nullptr;
 }
 
+// What re-weighted least squares would give to an edge at the answer: the slope
+// of its loss at the squared residual.
+double LossWeight(const ceres::Problem& problem, ceres::ResidualBlockId id) {
+  const ceres::LossFunction* loss = problem.GetLossFunctionForResidualBlock(id);
+  if (loss == nullptr) return 1.0;
+  double half_squared = 0.0;
+  if (!problem.EvaluateResidualBlock(
+          id, false, &half_squared, nullptr, nullptr)) {
+    return 0.0;
+  }
+  double value_and_slopes[3];
+  loss->Evaluate(2.0 * half_squared, value_and_slopes);
+  return value_and_slopes[1];
+}
+
 }  // namespace
 
 std::optional<LoopLoss> ParseLoopLoss(const std::string& name) {
@@ -212,6 +227,9 @@ PoseGraphSummary SolvePoseGraph(const PoseGraphOptions& options,
     ceres::Solve(options.solver, &problem.problem(), &solve);
     summary.is_usable = solve.IsSolutionUsable();
     summary.report = solve.BriefReport();
+    for (std::size_t i = 0; summary.is_usable && i < graph->edges.size(); ++i) {
+      summary.weights[i] = LossWeight(problem.problem(), problem.ids()[i]);
+    }
   }
   if (summary.is_usable) graph->world_from_pose = problem.WorldFromPose();
   summary.seconds = stopwatch.Lap();

@@ -47,9 +47,11 @@ struct PoseGraphOptions {
 
 struct PoseGraphSummary {
   bool is_usable = false;
-  std::string report;           // One line.
-  std::vector<double> weights;  // By edge; 1 where nothing is weighted.
-  CeresGncSummary gnc;          // Of LoopLoss::kGnc.
+  std::string report;  // One line.
+  // By edge: GNC's, or the slope of the loss at the answer; 1 where nothing is
+  // weighted. An edge at 0 does not hold the answer.
+  std::vector<double> weights;
+  CeresGncSummary gnc;  // Of LoopLoss::kGnc.
   double seconds = 0.0;
 };
 

@@ -120,6 +120,25 @@ py::object RefinementOf(const RegistrationSummary& summary) {
   return dict;
 }
 
+// All properties by their names, views copied.
+py::dict AsDict(const py::object& self) {
+  const py::object is_property =
+      py::module_::import("builtins").attr("property");
+  py::dict values;
+  for (const py::handle name : py::type::of(self).attr("__dict__")) {
+    const py::object member = py::type::of(self).attr(name);
+    if (!py::isinstance(member, is_property)) continue;
+    const py::object value = self.attr(name);
+    values[name] =
+        py::isinstance<py::array>(value) ? value.attr("copy")() : value;
+  }
+  return values;
+}
+
+constexpr const char* kAsDictDoc =
+    "dict: all properties by their names, for a table or another process; "
+    "arrays are copies. Can be pickled.";
+
 // What answers from matches and from clouds have in common.
 template <typename Summary>
 void BindCommon(const char* name, py::class_<Summary>* type) {
@@ -128,6 +147,7 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
   };
   type->def("__repr__",
             [name](const Summary& s) { return Represent(name, s); });
+  type->def("as_dict", &AsDict, kAsDictDoc);
   add("method", "str: the estimator's name.", [](const Summary& s) {
     return s.method;
   });
@@ -301,6 +321,7 @@ void BindSummaries(py::module_* module) {
                     ", inliers=" + std::to_string(s.num_inliers) + ": " +
                     s.message + ")";
            })
+      .def("as_dict", &AsDict, kAsDictDoc)
       .def_readonly("method", &Alignment::method, "str: icp, gicp or vgicp.")
       .def_property_readonly(
           "termination",

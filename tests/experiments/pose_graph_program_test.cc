@@ -97,6 +97,10 @@ TEST_F(PoseGraphProgramTest, GraphInPartsIsNoAnswer) {
   EXPECT_EQ(rejected.exit_code, 1) << rejected.out;
   EXPECT_THAT(rejected.out, HasSubstr("in 2 parts"));
   EXPECT_EQ(run(near + far, "--loss=none").exit_code, 0);
+  // Tukey's loss is flat where the graph begins.
+  const ProgramRun flat = run(far, "--loss=tukey");
+  EXPECT_EQ(flat.exit_code, 1) << flat.out;
+  EXPECT_THAT(flat.out, HasSubstr("in 2 parts"));
   // It rejects that between fixed poses, too, but these are where they are.
   for (const std::string& more : {near, far, "FIX 5\nFIX 8\n" + far}) {
     EXPECT_EQ(run(more, "--loss=gnc").exit_code, 0) << more;

@@ -14,8 +14,11 @@
 namespace quatro {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::Ge;
 using ::testing::HasSubstr;
+using ::testing::Le;
 
 GraphWorld Make(const std::string& name,
                 double wrong_share,
@@ -131,6 +134,36 @@ TEST_P(PoseGraphWorld, AnswerDoesNotDependOnTheOrderOfLoops) {
       LargestDifference(world.graph.world_from_pose, turned.world_from_pose)
           .translation,
       1e-6);
+}
+
+// The answer is that of plain least squares with these weights.
+TEST_P(PoseGraphWorld, WeightsOfALossMakeItsAnswer) {
+  for (const LoopLoss loss :
+       {LoopLoss::kHuber, LoopLoss::kCauchy, LoopLoss::kTukey}) {
+    GraphWorld world = Make(GetParam(), 0.1, 3);
+    const auto summary = SolvePoseGraph(With(loss), &world.graph);
+    ASSERT_TRUE(summary.is_usable) << summary.report;
+    PoseGraph weighted = world.graph;
+    weighted.edges.clear();
+    std::size_t num_doubted = 0;
+    for (std::size_t i = 0; i < summary.weights.size(); ++i) {
+      const double weight = summary.weights[i];
+      ASSERT_THAT(weight, AllOf(Ge(0.0), Le(1.0))) << "edge " << i;
+      if (world.graph.edges[i].IsOdometry()) EXPECT_EQ(weight, 1.0);
+      if (weight < 0.5) ++num_doubted;
+      if (weight == 0.0) continue;
+      weighted.edges.push_back(world.graph.edges[i]);
+      weighted.edges.back().information *= weight;
+    }
+    EXPECT_GE(num_doubted, 5u);
+    EXPECT_EQ(weighted.edges.size() < world.graph.edges.size(),
+              loss == LoopLoss::kTukey);
+    ASSERT_TRUE(SolvePoseGraph(With(LoopLoss::kNone), &weighted).is_usable);
+    const auto difference = LargestDifference(world.graph.world_from_pose,
+                                              weighted.world_from_pose);
+    EXPECT_LT(difference.translation, 1e-5);
+    EXPECT_LT(difference.rotation, 1e-5);
+  }
 }
 
 // |r|^2 is e^T information e, with an information that is not diagonal.

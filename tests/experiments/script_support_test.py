@@ -83,6 +83,11 @@ class ScriptSupportTest(unittest.TestCase):
         self.assertIn("there is no folder",
                       self.refused(support.check_writable, str(self.folder / "none" / "x")))
 
+    def test_without_matplotlib_there_is_no_picture(self):
+        with mock.patch.dict(sys.modules, {"matplotlib.backend_bases": None}):
+            self.assertIn("no Matplotlib",
+                          self.refused(support.check_picture, str(self.folder / "a.png"), []))
+
     def run_script(self, main):
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors), mock.patch("sys.argv", ["/a/name.py", "x"]):

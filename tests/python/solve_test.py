@@ -5,6 +5,7 @@
 import inspect
 import json
 import os
+import pickle
 import re
 import subprocess
 import threading
@@ -316,6 +317,25 @@ def test_repr_and_docstrings():
     assert answer.stage_seconds and answer.total_seconds > 0
     assert 'surprise' in answer.features
     assert isinstance(answer.notes, dict)
+
+
+def test_summaries_go_to_other_processes_as_dicts():
+    source, target = problems.matches(1, TRUTH)
+    cloud = problems.scan(1, 1)
+    for make in (lambda: quatro.solve(source, target, noise_bound=0.1),
+                 lambda: quatro.solve(source[:0], target[:0]),
+                 lambda: quatro.register(cloud, cloud, preset='auto'),
+                 lambda: quatro.align(cloud, cloud, 'icp')):
+        answer = make()
+        fields = [name for name in dir(answer) if not name.startswith('_') and name != 'as_dict']
+        values = answer.as_dict()
+        assert sorted(values) == sorted(fields)
+        for name in fields:
+            if isinstance(values[name], np.ndarray):
+                # Of its own, so that it can outlive the answer.
+                assert values[name].flags.writeable and values[name].base is None, name
+                assert np.array_equal(values[name], getattr(answer, name)), name
+        assert repr(pickle.loads(pickle.dumps(values))) == repr(values)
 
 
 def test_version_is_the_librarys():
