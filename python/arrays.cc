@@ -22,7 +22,7 @@ std::string Shape(const py::array& array) {
 }
 
 py::array RealNumbers(const py::object& given, const char* name) {
-  const auto array = py::array::ensure(given);
+  auto array = py::array::ensure(given);
   if (!array) {
     PyErr_Clear();
     throw py::value_error(std::string(name) + " is no array of numbers");
@@ -51,10 +51,11 @@ py::array ReadOnly(py::array array) {
 }  // namespace
 
 PointsArgument::PointsArgument(const py::object& given, const char* name) {
-  const bool is_cloud =
-      !py::isinstance<py::array>(given) && py::hasattr(given, "points");
-  const py::array array =
-      RealNumbers(is_cloud ? py::object(given.attr("points")) : given, name);
+  py::object points = given;
+  if (!py::isinstance<py::array>(given) && py::hasattr(given, "points")) {
+    points = given.attr("points");
+  }
+  const py::array array = RealNumbers(points, name);
   if (array.ndim() != 2 || array.shape(1) != 3) {
     throw py::value_error(std::string(name) + " has shape " + Shape(array) +
                           ", must be (N, 3)");

@@ -47,7 +47,7 @@ using Names = std::initializer_list<std::pair<const char*, Enum>>;
 // By name; the names are appended to the text.
 template <typename Enum>
 Option EnumOption(std::string name,
-                  std::string text,
+                  const std::string& text,
                   Names<Enum> names,
                   Enum* field) {
   std::string all;

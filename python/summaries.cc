@@ -24,6 +24,11 @@ const PoseSummary& SolutionOf(const Registration& r) {
 const Verdict& VerdictOf(const Solution& s) { return s.verdict; }
 const Verdict& VerdictOf(const Registration& r) { return r.summary.verdict; }
 
+py::object OrNone(const std::optional<double>& value) {
+  if (!value) return py::none();
+  return py::float_(*value);
+}
+
 py::dict Seconds(const std::vector<StageTime>& times) {
   py::dict seconds;
   for (const StageTime& time : times) {
@@ -85,13 +90,10 @@ py::list UnheldOf(const PoseSummary& solution) {
 py::object CertificateOf(const PoseSummary& solution) {
   if (!solution.certificate) return py::none();
   const YawCertificate& certificate = *solution.certificate;
-  const auto or_none = [](const std::optional<double>& value) {
-    return value ? py::object(py::float_(*value)) : py::object(py::none());
-  };
   py::dict dict;
-  dict["gnc_cost"] = or_none(certificate.gnc_cost);
+  dict["gnc_cost"] = OrNone(certificate.gnc_cost);
   dict["optimal_cost"] = certificate.optimal_cost;
-  dict["gap"] = or_none(certificate.gap);
+  dict["gap"] = OrNone(certificate.gap);
   return dict;
 }
 
@@ -189,9 +191,10 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
   add("yaw",
       "float or None: of target_from_source [rad], in [-pi, pi].",
       [](const Summary& s) {
+        std::optional<double> yaw;
         const auto& pose = SolutionOf(s).target_from_source;
-        return pose ? py::object(py::float_(Yaw(pose->rotation)))
-                    : py::object(py::none());
+        if (pose) yaw = Yaw(pose->rotation);
+        return OrNone(yaw);
       });
   add("scale",
       "float: of the target over the source; 1 unless estimated.",

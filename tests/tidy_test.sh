@@ -10,12 +10,12 @@ source third_party/setup.sh
 
 bash third_party/install.sh --tidy
 cmake -S . -B build-tidy -DCMAKE_BUILD_TYPE=Release -DQUATRO_BUILD_TESTS=OFF -DCMAKE_CXX_COMPILER=clang++ \
-      -DQUATRO_BUILD_EXPERIMENTS=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+      -DQUATRO_BUILD_EXPERIMENTS=ON -DQUATRO_BUILD_PYTHON=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
 cmake --build build-tidy --target quatro_commit >/dev/null
 if (($# > 0)); then
   sources=("$@")
 else
-  list=$(git ls-files -- 'features/*.cc' 'solvers/*.cc' 'robust/*.cc' 'experiments/*.cc' ':!experiments/peers')
+  list=$(git ls-files -- 'features/*.cc' 'solvers/*.cc' 'robust/*.cc' 'experiments/*.cc' 'python/*.cc' ':!experiments/peers')
   mapfile -t sources <<<"$list"
 fi
 printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(quatro_jobs)" clang-tidy -p build-tidy --quiet 2>/dev/null || {
