@@ -15,7 +15,8 @@ cmake --build build-tidy --target quatro_commit >/dev/null
 if (($# > 0)); then
   sources=("$@")
 else
-  list=$(git ls-files -- 'features/*.cc' 'solvers/*.cc' 'robust/*.cc' 'experiments/*.cc' 'python/*.cc' ':!experiments/peers')
+  list=$(git ls-files -- 'features/*.cc' 'solvers/*.cc' 'robust/*.cc' 'experiments/*.cc' 'python/*.cc' \
+                         ':!experiments/peers')
   mapfile -t sources <<<"$list"
 fi
 printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(quatro_jobs)" clang-tidy -p build-tidy --quiet 2>/dev/null || {
