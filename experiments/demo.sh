@@ -62,7 +62,7 @@ build/bin/quatro_register --source="$source" --target="$target" \
 
 # Reads the JSON, and in the simulated case the true poses.
 if [[ -s $out/registration.json ]]; then
-  bash experiments/with_python.sh numpy - "$out/registration.json" "$simulated" <<'END' || true
+  bash experiments/scripts/with_python.sh numpy - "$out/registration.json" "$simulated" <<'END' || true
 import json
 import pathlib
 import sys

@@ -85,7 +85,7 @@ run() {
 
 #   draw <name> <figures>
 draw() {
-  experiments/with_python.sh matplotlib experiments/draw_experiment.py \
+  experiments/scripts/with_python.sh matplotlib experiments/scripts/draw_experiment.py \
       "$output/$1" --figures="$2" >/dev/null
 }
 
@@ -140,9 +140,9 @@ for protocol in tims degeneracy quasi_inliers surrogates; do
   build/bin/quatro_experiment --protocol="$protocol" --output="$output/$protocol.csv" \
       >"$output/$protocol.txt"
 done
-experiments/with_python.sh matplotlib experiments/draw_surrogates.py "$output/surrogates.csv" \
+experiments/scripts/with_python.sh matplotlib experiments/scripts/draw_surrogates.py "$output/surrogates.csv" \
     "$output/surrogates.png"
 
-python3 experiments/report_paper.py "$output" >"$output/report.md.part"
+python3 experiments/scripts/report_paper.py "$output" >"$output/report.md.part"
 mv "$output/report.md.part" "$output/report.md"
 echo "$output/report.md" >&2

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "features/base/lanes.h"
+#include "features/base/parallel.h"
 #include "features/cells.h"
-#include "features/lanes.h"
-#include "features/parallel.h"
 
 namespace quatro {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <optional>
 
-#include "features/kd_tree.h"
-#include "features/simd.h"
-#include "features/types.h"
+#include "features/base/simd.h"
+#include "features/base/types.h"
+#include "features/neighborhoods.h"
 
 namespace quatro {
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "features/radix_sort.h"
+#include "features/base/radix_sort.h"
 
 namespace quatro {
 namespace {

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-#include "features/types.h"
+#include "features/base/types.h"
 
 namespace quatro {
 

@@ -36,10 +36,10 @@
 #include <span>
 #include <vector>
 
+#include "features/base/lanes.h"
+#include "features/base/simd.h"
+#include "features/base/zeroed_allocator.h"
 #include "features/fpfh.h"
-#include "features/lanes.h"
-#include "features/simd.h"
-#include "features/zeroed_allocator.h"
 
 namespace quatro {
 

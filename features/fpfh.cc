@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
+#include "features/base/parallel.h"
+#include "features/base/simd.h"
+#include "features/base/zeroed_allocator.h"
 #include "features/pair_feature.h"
-#include "features/parallel.h"
-#include "features/simd.h"
-#include "features/zeroed_allocator.h"
 
 namespace quatro {
 namespace {

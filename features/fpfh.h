@@ -18,9 +18,9 @@
 
 #include <Eigen/Core>
 
+#include "features/base/types.h"
 #include "features/neighborhoods.h"
 #include "features/pair_feature.h"
-#include "features/types.h"
 
 namespace quatro {
 

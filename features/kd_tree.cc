@@ -12,9 +12,9 @@
 #include <optional>
 #include <utility>
 
+#include "features/base/parallel.h"
+#include "features/base/simd.h"
 #include "features/cell_neighborhoods.h"
-#include "features/parallel.h"
-#include "features/simd.h"
 
 namespace quatro {
 namespace {

@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "features/base/types.h"
 #include "features/neighborhoods.h"
-#include "features/types.h"
 
 namespace quatro {
 

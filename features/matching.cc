@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <optional>
 
+#include "features/base/parallel.h"
+#include "features/base/simd.h"
 #include "features/descriptor_index.h"
-#include "features/parallel.h"
-#include "features/simd.h"
 
 namespace quatro {
 namespace {

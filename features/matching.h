@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "features/base/simd.h"
 #include "features/fpfh.h"
-#include "features/simd.h"
 
 namespace quatro {
 

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <optional>
 
+#include "features/base/parallel.h"
+#include "features/base/radix_sort.h"
 #include "features/cells.h"
-#include "features/parallel.h"
-#include "features/radix_sort.h"
 
 namespace quatro {
 namespace {

@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "features/base/types.h"
 #include "features/kd_tree.h"
-#include "features/types.h"
 
 namespace quatro {
 

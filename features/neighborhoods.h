@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "features/zeroed_allocator.h"
+#include "features/base/zeroed_allocator.h"
 
 namespace quatro {
 

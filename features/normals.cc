@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "features/parallel.h"
+#include "features/base/parallel.h"
 
 namespace quatro {
 namespace {

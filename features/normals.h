@@ -12,8 +12,8 @@
 
 #include <Eigen/Core>
 
+#include "features/base/types.h"
 #include "features/kd_tree.h"
-#include "features/types.h"
 
 namespace quatro {
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "features/simd.h"
+#include "features/base/simd.h"
 
 namespace quatro {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <sstream>
 
-#include "features/parallel.h"
-#include "features/random.h"
+#include "features/base/parallel.h"
+#include "features/base/random.h"
 
 namespace quatro {
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "features/base/types.h"
 #include "features/matching.h"
-#include "features/types.h"
 
 namespace quatro {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <sstream>
 
-#include "features/radix_sort.h"
-#include "features/zeroed_allocator.h"
+#include "features/base/radix_sort.h"
+#include "features/base/zeroed_allocator.h"
 
 namespace quatro {
 namespace {

@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-#include "features/types.h"
+#include "features/base/types.h"
 
 namespace quatro {
 

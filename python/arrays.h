@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Points as NumPy has them: N rows of x, y, z in C order lie in memory as the
-// 3xN columns of features/types.h, so that neither way needs a copy.
+// 3xN columns of features/base/types.h, so that neither way needs a copy.
 
 #ifndef QUATRO_PYTHON_ARRAYS_H_
 #define QUATRO_PYTHON_ARRAYS_H_
@@ -13,9 +13,9 @@
 #include <optional>
 #include <vector>
 
-#include "features/point_cloud.h"
-#include "features/types.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+#include "features/io/point_cloud.h"
 
 namespace quatro {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "python/options.h"
-#include "robust/pose_summary.h"
-#include "robust/registration.h"
+#include "robust/estimators/pose_summary.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 

@@ -10,17 +10,17 @@
 #include <string>
 #include <utility>
 
-#include "features/cloud_io.h"
-#include "features/stopwatch.h"
+#include "features/base/stopwatch.h"
+#include "features/io/cloud_io.h"
 #include "python/arrays.h"
 #include "python/methods.h"
 #include "python/options.h"
 #include "python/summaries.h"
-#include "robust/presets.h"
-#include "robust/summary_covariance.h"
-#include "solvers/gicp.h"
-#include "solvers/icp.h"
-#include "solvers/vgicp.h"
+#include "robust/registration/presets.h"
+#include "robust/verdict/summary_covariance.h"
+#include "solvers/local/gicp.h"
+#include "solvers/local/icp.h"
+#include "solvers/local/vgicp.h"
 
 namespace quatro {
 namespace {

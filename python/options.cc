@@ -349,7 +349,7 @@ OptionList OptionsOf(LocalAlignmentOptions* o) {
                       {"geman_mcclure", RobustKernelType::kGemanMcClure}},
                      &o->kernel.type),
           MakeOption("kernel_width",
-                     "[m] of icp; see solvers/gicp.h, vgicp.h.",
+                     "[m] of icp; see solvers/local/gicp.h, vgicp.h.",
                      &o->kernel.width),
           MakeOption("translation_tolerance",
                      "[m], of the last step.",

@@ -13,15 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "robust/arc_consensus.h"
-#include "robust/fgr.h"
-#include "robust/ins.h"
-#include "robust/quatro.h"
-#include "robust/ransac.h"
-#include "robust/registration.h"
-#include "robust/teaser.h"
-#include "solvers/local_alignment.h"
-#include "solvers/vgicp.h"
+#include "robust/estimators/arc_consensus.h"
+#include "robust/estimators/fgr.h"
+#include "robust/estimators/quatro.h"
+#include "robust/estimators/ransac.h"
+#include "robust/estimators/teaser.h"
+#include "robust/registration/ins.h"
+#include "robust/registration/registration.h"
+#include "solvers/local/local_alignment.h"
+#include "solvers/local/vgicp.h"
 
 namespace quatro {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "features/base/rigid3.h"
 #include "python/arrays.h"
-#include "solvers/rigid3.h"
 
 namespace quatro {
 namespace {

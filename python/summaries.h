@@ -9,10 +9,10 @@
 
 #include <string>
 
-#include "robust/pose_summary.h"
-#include "robust/registration.h"
-#include "robust/verdict.h"
-#include "solvers/local_alignment.h"
+#include "robust/estimators/pose_summary.h"
+#include "robust/registration/registration.h"
+#include "robust/verdict/verdict.h"
+#include "solvers/local/local_alignment.h"
 
 namespace quatro {
 

@@ -23,7 +23,7 @@ foreach(page ${pages})
     math(EXPR num_tests "${num_tests} + 1")
   endforeach()
 
-  # `robust/ransac.h`, `tests/install/`, also with arguments behind.
+  # `robust/estimators/ransac.h`, `tests/install/`, also with arguments behind.
   string(REGEX MATCHALL "`(features|solvers|robust|experiments|python|tests|third_party|docs)/[a-z0-9_./]*"
          names "${text}")
   foreach(name ${names})
@@ -38,7 +38,7 @@ if(num_tests LESS 60 OR num_files LESS 15)
   message(SEND_ERROR "README.md and docs/ name ${num_tests} tests and ${num_files} files only")
 endif()
 
-# "[robust/gnc.h](../robust/gnc.h), `SolveGnc`", the other way round, and "in".
+# "[robust/gnc/gnc.h](../robust/gnc/gnc.h), `SolveGnc`", the other way round, and "in".
 file(READ "${ROOT}/docs/method.md" method)
 set(name "`[A-Z][A-Za-z]+(\\([a-z, ]+\\))?`")
 set(header "\\[[a-z_0-9/]+\\.h\\]\\(\\.\\./[a-z_0-9/]+\\.h\\)")

@@ -1,5 +1,5 @@
-# What others build against. Headers are included as "robust/quatro.h", as they
-# include each other, or as <quatro/robust/quatro.h>, which no file of others
+# What others build against. Headers are included as "robust/estimators/quatro.h", as they
+# include each other, or as <quatro/robust/estimators/quatro.h>, which no file of others
 # can be taken for: so both include/ and include/quatro/ are on the path, and
 # the build folder has the like of the former.
 set(QUATRO_EXPORTED features solvers robust)

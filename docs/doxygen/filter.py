@@ -27,13 +27,13 @@ def escape(text):
 
 # What several types have by contract, said once.
 CONTRACTS = {
-    # Subproblem, robust/gnc.h.
+    # Subproblem, robust/gnc/gnc.h.
     'Estimate': 'What is estimated.',
     'NumMeasurements': 'How many there are to be weighted.',
     'Identity': 'The estimate before any data.',
     'Solve': 'Weighted least squares; nullopt if the weights leave it undetermined.',
     'SquaredResiduals': 'Squared residuals over the squared noise bound: an inlier has no more than 1.',
-    # Surrogate, robust/surrogate.h, where r2 is such a residual.
+    # Surrogate, robust/gnc/surrogate.h, where r2 is such a residual.
     'InitialMu': 'The mu to begin with, from the largest r2.',
     'NextMu': 'The mu of the next iteration.',
     'IsExact': 'Whether the surrogate is the loss itself.',
@@ -41,7 +41,7 @@ CONTRACTS = {
     'Weight': 'The weight at r2: the derivative of the surrogate.',
     'OutlierProcess': 'What a weight w costs: the surrogate is the least of w r2 plus this.',
     'Loss': 'The surrogate at r2.',
-    # Rows of a file, features/ply_rows.h.
+    # Rows of a file, features/io/ply_rows.h.
     'MaxNumRows': 'An upper bound of the rows that are left.',
     'BeginRow': 'Goes to the next row.',
     'TakeLength': 'Takes the length of a list.',

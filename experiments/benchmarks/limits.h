@@ -23,9 +23,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "features/lanes.h"
-#include "features/simd.h"
-#include "features/types.h"
+#include "features/base/lanes.h"
+#include "features/base/simd.h"
+#include "features/base/types.h"
 
 namespace quatro {
 

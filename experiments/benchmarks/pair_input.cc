@@ -11,8 +11,8 @@
 
 #include "features/normals.h"
 #include "features/voxel_grid.h"
-#include "robust/max_clique.h"
-#include "robust/tims.h"
+#include "robust/estimators/tims.h"
+#include "robust/graph/max_clique.h"
 
 namespace quatro {
 

@@ -10,16 +10,16 @@
 #include <memory>
 #include <vector>
 
+#include "features/base/types.h"
 #include "features/fpfh.h"
+#include "features/io/point_cloud.h"
 #include "features/kd_tree.h"
 #include "features/matching.h"
-#include "features/point_cloud.h"
-#include "features/types.h"
-#include "robust/consistency_graph.h"
-#include "robust/distinct_matches.h"
-#include "robust/evidence.h"
-#include "robust/quasi_so3.h"
-#include "robust/registration.h"
+#include "robust/estimators/distinct_matches.h"
+#include "robust/gnc/quasi_so3.h"
+#include "robust/graph/consistency_graph.h"
+#include "robust/registration/registration.h"
+#include "robust/verdict/evidence.h"
 
 namespace quatro {
 

@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
-#include "experiments/csv_line.h"
-#include "experiments/number_text.h"
-#include "features/file.h"
+#include "experiments/base/csv_line.h"
+#include "experiments/base/number_text.h"
+#include "features/base/file.h"
 
 namespace quatro {
 

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <system_error>
 
+#include "experiments/datasets/kitti_poses.h"
 #include "experiments/datasets/oxts.h"
-#include "experiments/odometry/kitti_poses.h"
-#include "experiments/odometry/sequence.h"
+#include "experiments/datasets/sequence.h"
 
 namespace quatro {
 namespace {

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/base/number_text.h"
 #include "experiments/datasets/kitti_odometry.h"
-#include "experiments/number_text.h"
-#include "experiments/odometry/kitti_poses.h"
-#include "features/file.h"
+#include "experiments/datasets/kitti_poses.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "experiments/datasets/oxts.h"
-#include "experiments/odometry/sequence.h"
+#include "experiments/datasets/sequence.h"
 
 namespace quatro {
 

@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/number_text.h"
-#include "features/cloud_text.h"
-#include "features/file.h"
+#include "experiments/base/number_text.h"
+#include "features/base/file.h"
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 namespace {

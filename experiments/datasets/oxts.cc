@@ -11,9 +11,9 @@
 #include <system_error>
 #include <vector>
 
-#include "experiments/number_text.h"
-#include "experiments/odometry/kitti_poses.h"
-#include "features/file.h"
+#include "experiments/base/number_text.h"
+#include "experiments/datasets/kitti_poses.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

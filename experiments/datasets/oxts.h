@@ -19,8 +19,8 @@
 #include <optional>
 #include <string>
 
-#include "solvers/gravity.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "solvers/closed_form/gravity.h"
 
 namespace quatro {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/pair_task.h"
+#include "experiments/datasets/pair_task.h"
 
 namespace quatro {
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "experiments/base/number_text.h"
 #include "experiments/datasets/csv_table.h"
-#include "experiments/number_text.h"
 
 namespace quatro {
 namespace {

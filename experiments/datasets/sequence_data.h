@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/pair_task.h"
-#include "solvers/gravity.h"
-#include "solvers/rigid3.h"
+#include "experiments/datasets/pair_task.h"
+#include "features/base/rigid3.h"
+#include "solvers/closed_form/gravity.h"
 
 namespace quatro {
 

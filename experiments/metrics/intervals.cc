@@ -6,12 +6,13 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
 
-#include "features/random.h"
+#include "features/base/random.h"
 
 namespace quatro {
 namespace {
@@ -51,15 +52,7 @@ std::optional<Interval> Bootstrap(const std::vector<double>& values,
 
 double NormalQuantile(double probability) {
   CHECK(probability > 0.0 && probability < 1.0) << probability;
-  // By halving: doubles have no normal variable beyond 40.
-  double low = -40.0;
-  double high = 40.0;
-  while (true) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) return middle;
-    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < probability ? low : high) =
-        middle;
-  }
+  return boost::math::quantile(boost::math::normal(), probability);
 }
 
 Interval WilsonInterval(long k, long n, double confidence) {

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
 
 namespace quatro {
 

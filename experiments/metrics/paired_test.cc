@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "experiments/metrics/intervals.h"
-#include "features/random.h"
+#include "features/base/random.h"
 
 namespace quatro {
 namespace {

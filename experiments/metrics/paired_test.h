@@ -26,8 +26,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/metrics/pair_result.h"
 #include "experiments/metrics/registration_metrics.h"
-#include "experiments/runner/pair_result.h"
 
 namespace quatro {
 

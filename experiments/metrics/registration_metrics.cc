@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/number_text.h"
-#include "features/cloud_text.h"
+#include "experiments/base/number_text.h"
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 namespace {

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "experiments/metrics/intervals.h"
-#include "experiments/runner/pair_result.h"
+#include "experiments/metrics/pair_result.h"
 
 namespace quatro {
 

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "robust/verdict.h"
+#include "robust/verdict/verdict.h"
 
 namespace quatro {
 

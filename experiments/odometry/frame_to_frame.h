@@ -12,11 +12,11 @@
 #include <optional>
 #include <string>
 
-#include "experiments/methods.h"
 #include "experiments/odometry/odometry.h"
-#include "features/point_cloud.h"
-#include "robust/registration.h"
-#include "solvers/rigid3.h"
+#include "experiments/programs/methods.h"
+#include "features/base/rigid3.h"
+#include "features/io/point_cloud.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 

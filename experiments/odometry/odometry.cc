@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "features/stopwatch.h"
+#include "features/base/stopwatch.h"
 
 namespace quatro {
 namespace {

@@ -16,8 +16,8 @@
 #include <optional>
 #include <string>
 
-#include "features/point_cloud.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/io/point_cloud.h"
 
 namespace quatro {
 

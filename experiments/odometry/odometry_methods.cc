@@ -3,10 +3,10 @@
 
 #include "experiments/odometry/odometry_methods.h"
 
-#include "experiments/methods.h"
-#include "experiments/odometry/aloam.h"
+#include "experiments/odometry/aloam/aloam.h"
 #include "experiments/odometry/frame_to_frame.h"
-#include "experiments/odometry/suma.h"
+#include "experiments/odometry/suma/suma.h"
+#include "experiments/programs/methods.h"
 
 namespace quatro {
 namespace {
@@ -23,7 +23,7 @@ std::unique_ptr<Odometry> MakeSuma(int num_threads) {
   return std::make_unique<Suma>(options);
 }
 
-// Described in experiments/methods.cc.
+// Described in experiments/programs/methods.cc.
 struct Method {
   const char* name;
   std::unique_ptr<Odometry> (*make)(int num_threads);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The registry of odometries: aloam, suma, and every other method of
-// experiments/methods.h from one scan to the next. Those that start from a
-// guess are given that of constant velocity.
+// experiments/programs/methods.h from one scan to the next. Those that start
+// from a guess are given that of constant velocity.
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_ODOMETRY_METHODS_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_ODOMETRY_METHODS_H_
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "experiments/odometry/odometry.h"
-#include "robust/registration.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 

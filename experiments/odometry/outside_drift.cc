@@ -5,8 +5,8 @@
 
 #include <string_view>
 
-#include "experiments/number_text.h"
-#include "features/cloud_text.h"
+#include "experiments/base/number_text.h"
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 

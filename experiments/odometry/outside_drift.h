@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/datasets/sequence.h"
 #include "experiments/metrics/kitti_metrics.h"
-#include "experiments/odometry/sequence.h"
 #include "experiments/odometry/table_two.h"
 
 namespace quatro {

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "experiments/odometry/kitti_poses.h"
+#include "experiments/datasets/kitti_poses.h"
 #include "experiments/tables/latex.h"
 #include "experiments/tables/published_figures.h"
 

@@ -15,7 +15,7 @@
 
 #include "experiments/metrics/kitti_metrics.h"
 #include "experiments/tables/table.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
 
 namespace quatro {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "experiments/peers/peer_summary.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
 
 namespace quatro {
 namespace {

@@ -13,8 +13,8 @@
 
 #include <cstdint>
 
-#include "features/types.h"
-#include "robust/pose_summary.h"
+#include "features/base/types.h"
+#include "robust/estimators/pose_summary.h"
 
 namespace quatro {
 

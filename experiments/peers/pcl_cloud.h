@@ -11,8 +11,8 @@
 
 #include <Eigen/Geometry>
 
-#include "features/types.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
 
 namespace quatro {
 

@@ -11,8 +11,8 @@
 #ifndef QUATRO_EXPERIMENTS_PEERS_PCL_FPFH_H_
 #define QUATRO_EXPERIMENTS_PEERS_PCL_FPFH_H_
 
+#include "features/base/types.h"
 #include "features/fpfh.h"
-#include "features/types.h"
 
 namespace quatro {
 

@@ -10,10 +10,10 @@
 #ifndef QUATRO_EXPERIMENTS_PEERS_PCL_ICP_H_
 #define QUATRO_EXPERIMENTS_PEERS_PCL_ICP_H_
 
-#include "features/types.h"
-#include "robust/refinement.h"
-#include "solvers/local_alignment.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+#include "robust/registration/refinement.h"
+#include "solvers/local/local_alignment.h"
 
 namespace quatro {
 

@@ -10,9 +10,9 @@
 #include <functional>
 #include <string>
 
-#include "features/types.h"
-#include "robust/pose_summary.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+#include "robust/estimators/pose_summary.h"
 
 namespace quatro {
 

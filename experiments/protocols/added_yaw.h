@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "experiments/runner/pair_task.h"
+#include "experiments/datasets/pair_task.h"
 
 namespace quatro {
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "features/random.h"
+#include "features/base/random.h"
 
 namespace quatro {
 

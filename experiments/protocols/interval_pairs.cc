@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "experiments/protocols/draw_evenly.h"
-#include "features/random.h"
+#include "features/base/random.h"
 
 namespace quatro {
 

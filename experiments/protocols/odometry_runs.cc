@@ -8,12 +8,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "experiments/datasets/kitti_poses.h"
+#include "experiments/datasets/sequence.h"
 #include "experiments/metrics/kitti_metrics.h"
-#include "experiments/odometry/kitti_poses.h"
 #include "experiments/odometry/odometry_methods.h"
 #include "experiments/odometry/outside_drift.h"
-#include "experiments/odometry/sequence.h"
-#include "features/file.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

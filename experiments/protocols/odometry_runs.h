@@ -24,7 +24,7 @@
 
 #include "experiments/datasets/sequence_data.h"
 #include "experiments/odometry/table_two.h"
-#include "robust/registration.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <functional>
 
-#include "experiments/synthetic.h"
-#include "features/random.h"
+#include "experiments/simulator/synthetic.h"
+#include "features/base/random.h"
 
 namespace quatro {
 namespace {

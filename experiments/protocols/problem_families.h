@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Families of matched points (experiments/synthetic.h) as tasks, for the
-// protocol `synthetic`: each family turns one screw, a bin a step. With c the
-// noise bound, noise is of sigma = c / 3 but where it is what is turned:
+// Families of matched points (experiments/simulator/synthetic.h) as tasks, for
+// the protocol `synthetic`: each family turns one screw, a bin a step. With c
+// the noise bound, noise is of sigma = c / 3 but where it is what is turned:
 //
 //   outliers       50, 80, 90, 95, 98 and 99 % wrong of 1000 matches
 //   noise          sigma = c/12, c/6, c/3, 2c/3; 95 % wrong of 1000

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "experiments/number_text.h"
+#include "experiments/base/number_text.h"
 #include "experiments/protocols/added_yaw.h"
 #include "experiments/protocols/interval_pairs.h"
 #include "experiments/protocols/loop_pairs.h"
-#include "features/cloud_text.h"
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 namespace {

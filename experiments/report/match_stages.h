@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "robust/registration.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 

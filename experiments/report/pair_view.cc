@@ -12,9 +12,9 @@
 #include "experiments/report/match_stages.h"
 #include "experiments/report/quantized_points.h"
 #include "experiments/report/thinning.h"
-#include "features/random.h"
-#include "robust/consensus.h"
-#include "robust/distinct_matches.h"
+#include "features/base/random.h"
+#include "robust/estimators/consensus.h"
+#include "robust/estimators/distinct_matches.h"
 
 namespace quatro {
 namespace {

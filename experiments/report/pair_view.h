@@ -36,9 +36,9 @@
 #include <string>
 #include <vector>
 
-#include "features/types.h"
-#include "robust/registration.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "features/types.h"
+#include "features/base/types.h"
 
 namespace quatro {
 

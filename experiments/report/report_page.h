@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/metrics/pair_result.h"
 #include "experiments/runner/manifest.h"
-#include "experiments/runner/pair_result.h"
 #include "experiments/tables/run_tables.h"
 
 namespace quatro {

@@ -3,8 +3,8 @@
 
 #include "experiments/report/report_template.h"
 
-#include "experiments/shared_file.h"
-#include "features/file.h"
+#include "experiments/base/shared_file.h"
+#include "features/base/file.h"
 
 namespace quatro {
 

@@ -12,7 +12,7 @@
 
 #include "experiments/report/report_page.h"
 #include "experiments/runner/run_folder.h"
-#include "features/file.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/metrics/pair_result.h"
 #include "experiments/metrics/registration_metrics.h"
-#include "experiments/runner/pair_result.h"
 #include "experiments/tables/run_tables.h"
 
 namespace quatro {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "features/random.h"
+#include "features/base/random.h"
 
 namespace quatro {
 

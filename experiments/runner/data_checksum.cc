@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "features/file.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

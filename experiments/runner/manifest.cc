@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "experiments/one_line.h"
-#include "features/file.h"
+#include "experiments/base/one_line.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

@@ -12,7 +12,7 @@
 #include "experiments/runner/data_checksum.h"
 #include "experiments/runner/run_folder.h"
 #include "experiments/tables/run_tables.h"
-#include "features/file.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/datasets/pair_task.h"
 #include "experiments/runner/manifest.h"
-#include "experiments/runner/pair_task.h"
 #include "experiments/runner/run_task.h"
 #include "experiments/runner/runner.h"
 #include "experiments/tables/result_groups.h"

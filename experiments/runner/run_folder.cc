@@ -16,7 +16,7 @@
 #include <system_error>
 
 #include "experiments/runner/data_checksum.h"
-#include "features/file.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

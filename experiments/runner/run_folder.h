@@ -23,7 +23,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "experiments/runner/pair_result.h"
+#include "experiments/metrics/pair_result.h"
 
 namespace quatro {
 

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "experiments/methods.h"
-#include "experiments/synthetic.h"
-#include "features/stopwatch.h"
-#include "robust/verdict.h"
+#include "experiments/programs/methods.h"
+#include "experiments/simulator/synthetic.h"
+#include "features/base/stopwatch.h"
+#include "robust/verdict/verdict.h"
 
 namespace quatro {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "experiments/runner/pair_task.h"
+#include "experiments/datasets/pair_task.h"
 #include "experiments/runner/run_task.h"
 
 namespace quatro {

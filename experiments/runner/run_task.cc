@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "experiments/methods.h"
-#include "features/cloud_io.h"
-#include "robust/presets.h"
+#include "experiments/programs/methods.h"
+#include "features/io/cloud_io.h"
+#include "robust/registration/presets.h"
 
 namespace quatro {
 namespace {

@@ -10,25 +10,25 @@
 #include <string>
 #include <vector>
 
-#include "experiments/own_method.h"
+#include "experiments/datasets/pair_task.h"
+#include "experiments/metrics/pair_result.h"
+#include "experiments/programs/own_method.h"
 #include "experiments/report/pair_view.h"
-#include "experiments/runner/pair_result.h"
-#include "experiments/runner/pair_task.h"
-#include "robust/ins.h"
-#include "robust/registration.h"
+#include "robust/registration/ins.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 
 struct RunMethods {
-  // Of experiments/methods.h, but no odometry, or of `own`.
+  // Of experiments/programs/methods.h, but no odometry, or of `own`.
   std::vector<std::string> names;
   std::vector<OwnMethod> own;
 
   // For all of them; the solver is replaced.
   RegistrationOptions options;
 
-  // Take the options from each pair of clouds (robust/presets.h), but for
-  // threads and seed, which stay.
+  // Take the options from each pair of clouds (robust/registration/presets.h),
+  // but for threads and seed, which stay.
   bool use_auto_options = false;
 
   // Of what tasks keep for the report, but for the seed, which is that above.

@@ -8,8 +8,8 @@
 #include <unordered_set>
 
 #include "experiments/runner/run_problem.h"
-#include "features/cloud_text.h"
-#include "features/parallel.h"
+#include "features/base/parallel.h"
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/pair_task.h"
+#include "experiments/datasets/pair_task.h"
 #include "experiments/runner/run_folder.h"
 #include "experiments/runner/run_task.h"
 

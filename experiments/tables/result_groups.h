@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "experiments/metrics/intervals.h"
+#include "experiments/metrics/pair_result.h"
 #include "experiments/metrics/registration_metrics.h"
-#include "experiments/runner/pair_result.h"
 
 namespace quatro {
 

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "experiments/runner/pair_result.h"
+#include "experiments/metrics/pair_result.h"
 #include "experiments/tables/published_figures.h"
 #include "experiments/tables/result_groups.h"
 #include "experiments/tables/table.h"

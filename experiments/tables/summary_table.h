@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/pair_result.h"
+#include "experiments/metrics/pair_result.h"
 #include "experiments/tables/result_groups.h"
 #include "experiments/tables/table.h"
 

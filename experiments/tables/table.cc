@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "experiments/csv_line.h"
+#include "experiments/base/csv_line.h"
 
 namespace quatro {
 

@@ -14,12 +14,12 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOURCES = ['robust/verdict.cc', 'robust/quatro.cc', 'robust/teaser.cc', 'robust/fgr.cc',
-           'robust/ransac.cc', 'robust/arc_consensus.cc', 'robust/polish.cc', 'robust/refinement.cc',
-           'robust/ins.cc', 'robust/local_registration.cc', 'robust/gnc.cc', 'robust/front_end.cc',
-           'robust/registration.cc', 'solvers/valid_matches.cc', 'solvers/pose_covariance.cc',
-           'solvers/held_directions.cc', 'solvers/local_alignment.cc',
-           'solvers/vgicp.cc', 'features/voxel_grid.cc', 'experiments/explain.cc']
+SOURCES = ['robust/verdict/verdict.cc', 'robust/estimators/quatro.cc', 'robust/estimators/teaser.cc', 'robust/estimators/fgr.cc',
+           'robust/estimators/ransac.cc', 'robust/estimators/arc_consensus.cc', 'robust/estimators/polish.cc', 'robust/registration/refinement.cc',
+           'robust/registration/ins.cc', 'robust/registration/local_registration.cc', 'robust/gnc/gnc.cc', 'robust/registration/front_end.cc',
+           'robust/registration/registration.cc', 'solvers/closed_form/valid_matches.cc', 'solvers/ceres/pose_covariance.cc',
+           'solvers/ceres/observability.cc', 'solvers/local/local_alignment.cc',
+           'solvers/local/vgicp.cc', 'features/voxel_grid.cc', 'experiments/programs/explain.cc']
 LITERAL = re.compile(r'"((?:\\.|[^"\\])*)"')
 
 

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "features/base/simd.h"
 #include "features/cell_neighborhoods.h"
-#include "features/simd.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {

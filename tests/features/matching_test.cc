@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "features/simd.h"
+#include "features/base/simd.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {

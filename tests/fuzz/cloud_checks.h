@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "features/point_cloud.h"
+#include "features/io/point_cloud.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace quatro {

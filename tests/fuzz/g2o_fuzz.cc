@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // A pose graph, and the same one written again.
 
-#include "experiments/g2o.h"
+#include "experiments/pose_graphs/g2o.h"
 
 #include "tests/fuzz/fuzz.h"
 

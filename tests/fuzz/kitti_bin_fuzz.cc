@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // A KITTI .bin, and the same one written again.
 
-#include "features/kitti_bin.h"
+#include "features/io/kitti_bin.h"
 
 #include "tests/fuzz/cloud_checks.h"
 

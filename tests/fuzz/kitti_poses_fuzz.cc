@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Poses of KITTI, written again, and its calibration.
 
-#include "experiments/odometry/kitti_poses.h"
+#include "experiments/datasets/kitti_poses.h"
 
 #include "tests/fuzz/fuzz.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Matched points as text, and the same ones written again.
 
-#include "experiments/matches_csv.h"
+#include "experiments/programs/matches_csv.h"
 
 #include "tests/fuzz/fuzz.h"
 

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: MIT
 // Numbers out of text: in files, and in flags that hold several.
 
-#include "experiments/number_text.h"
+#include "experiments/base/number_text.h"
 
 #include <cmath>
 
-#include "experiments/ins_flags.h"
 #include "experiments/odometry/outside_drift.h"
+#include "experiments/programs/ins_flags.h"
 #include "experiments/protocols/protocols.h"
 #include "experiments/runner/runner.h"
-#include "features/cloud_text.h"
+#include "features/io/cloud_text.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace quatro {

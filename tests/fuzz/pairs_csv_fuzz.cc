@@ -4,7 +4,7 @@
 
 #include "experiments/datasets/pairs_csv.h"
 
-#include "experiments/csv_line.h"
+#include "experiments/base/csv_line.h"
 #include "experiments/datasets/csv_table.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // A PCD of any kind, and the same points written as a binary one.
 
-#include "features/pcd.h"
+#include "features/io/pcd.h"
 
 #include "tests/fuzz/cloud_checks.h"
 

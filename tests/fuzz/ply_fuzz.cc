@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // A PLY, and the same points written as one.
 
-#include "features/ply.h"
+#include "features/io/ply.h"
 
 #include "tests/fuzz/cloud_checks.h"
 

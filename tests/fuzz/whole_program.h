@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "features/file.h"
+#include "features/base/file.h"
 #include "tests/fuzz/fuzz.h"
 
 int ProgramMain(int argc, char** argv);

@@ -3,16 +3,16 @@
 // A program of somebody else's: two generated scans of one place, the second
 // from elsewhere. Ends with 0 if the pose between them is found.
 
-#include <quatro/robust/presets.h>
-#include <quatro/robust/registration.h>
+#include <quatro/robust/registration/presets.h>
+#include <quatro/robust/registration/registration.h>
 #include <quatro/version.h>
 
 #include <cmath>
 #include <iostream>
 #include <random>
 
-#include "features/point_cloud.h"  // The form the library's own headers use.
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/io/point_cloud.h"  // The form the library's own headers use.
 
 namespace {
 

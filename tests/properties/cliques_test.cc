@@ -9,9 +9,9 @@
 #include <bit>
 #include <vector>
 
-#include "robust/consistency_graph.h"
-#include "robust/exact_clique.h"
-#include "robust/max_clique.h"
+#include "robust/graph/consistency_graph.h"
+#include "robust/graph/exact_clique.h"
+#include "robust/graph/max_clique.h"
 #include "tests/properties/lattice.h"
 
 namespace quatro {

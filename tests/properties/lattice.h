@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "features/types.h"
+#include "features/base/types.h"
 
 namespace quatro {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/methods.h"
-#include "robust/quatro.h"
+#include "experiments/programs/methods.h"
+#include "robust/estimators/quatro.h"
 #include "tests/properties/lattice.h"
 
 namespace quatro {

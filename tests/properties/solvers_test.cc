@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/exact_yaw.h"
-#include "solvers/rigid3.h"
-#include "solvers/rotation.h"
-#include "solvers/translation.h"
-#include "solvers/yaw.h"
+#include "features/base/rigid3.h"
+#include "solvers/closed_form/exact_yaw.h"
+#include "solvers/closed_form/rotation.h"
+#include "solvers/closed_form/translation.h"
+#include "solvers/closed_form/yaw.h"
 #include "tests/properties/lattice.h"
 
 namespace quatro {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// For tests of local registration: (1) of solvers/local_alignment.h as the
-// definition says it, and as a Ceres problem.
+// For tests of local registration: (1) of solvers/local/local_alignment.h as
+// the definition says it, and as a Ceres problem.
 
 #ifndef QUATRO_TESTS_SUPPORT_ALIGNMENT_PROBLEMS_H_
 #define QUATRO_TESTS_SUPPORT_ALIGNMENT_PROBLEMS_H_
@@ -14,9 +14,9 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/ceres_residuals.h"
-#include "solvers/local_alignment.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "solvers/ceres/ceres_residuals.h"
+#include "solvers/local/local_alignment.h"
 
 namespace quatro {
 

@@ -11,9 +11,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "features/random.h"
-#include "features/types.h"
-#include "solvers/rigid3.h"
+#include "features/base/random.h"
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {

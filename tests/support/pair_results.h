@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "experiments/runner/pair_result.h"
+#include "experiments/metrics/pair_result.h"
 
 namespace quatro {
 

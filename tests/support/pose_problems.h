@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "robust/pose_summary.h"
+#include "robust/estimators/pose_summary.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "features/random.h"
-#include "features/types.h"
+#include "features/base/random.h"
+#include "features/base/types.h"
 
 namespace quatro {
 

@@ -6,9 +6,9 @@
 #ifndef QUATRO_TESTS_SUPPORT_ROOM_SCANS_H_
 #define QUATRO_TESTS_SUPPORT_ROOM_SCANS_H_
 
-#include "features/point_cloud.h"
-#include "robust/registration.h"
-#include "solvers/rigid3.h"
+#include "features/base/rigid3.h"
+#include "features/io/point_cloud.h"
+#include "robust/registration/registration.h"
 #include "tests/support/matched_problems.h"
 
 namespace quatro {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <vector>
 
-#include "experiments/experiment_program.h"
-#include "features/random.h"
-#include "robust/consensus.h"
-#include "solvers/translation.h"
-#include "solvers/yaw_translation.h"
+#include "experiments/programs/experiment_program.h"
+#include "features/base/random.h"
+#include "robust/estimators/consensus.h"
+#include "solvers/closed_form/translation.h"
+#include "solvers/closed_form/yaw_translation.h"
 
 namespace {
 

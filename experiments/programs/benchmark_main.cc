@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <benchmark/benchmark.h>
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/base/number_text.h"
+#include "experiments/base/outputs.h"
+#include "experiments/benchmarks/pair_input.h"
+#include "experiments/benchmarks/stages.h"
+#include "experiments/programs/program.h"
+#include "experiments/runner/build_info.h"
+#include "experiments/simulator/pair_sets.h"
+#include "features/base/simd.h"
+#include "features/io/cloud_io.h"
+#include "features/voxel_grid.h"
+#include "robust/registration/presets.h"
+
+DEFINE_string(source, "", "Cloud to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(target, "", "Cloud to move it onto. Neither: a simulated street");
+DEFINE_string(preset, "kitti", "As of quatro_register");
+DEFINE_string(sizes,
+              "1000,3000,10000,30000,50000,100000,300000,1000000",
+              "Numbers of matches for estimators; with a graph up to 50000");
+DEFINE_int32(threads, 1, "0: one per core; of all but those named with theirs");
+
+namespace {
+
+constexpr char kUsage[] =
+    "measures every stage, against other libraries that are built in and "
+    "limits\n"
+    "of the machine.\n"
+    "\n"
+    "  quatro_benchmark --source=a.bin --target=b.bin --benchmark_out=ab.json\n"
+    "  experiments/scripts/tabulate_benchmark.py ab.json\n"
+    "\n"
+    "Names are stage/who[/case]. Flags --benchmark_... are Google Benchmark's: "
+    "\n"
+    "_filter=REGEX, _min_time=SECONDS, _repetitions=N, _out=FILE (JSON),\n"
+    "_list_tests.\n"
+    "Exits with 0 when done; 2 if a flag or a file is wrong.";
+
+constexpr int kMaxSize = 10'000'000;
+constexpr int kMaxRepetitions = 100'000;
+
+bool IsOfBenchmark(std::string_view arg) {
+  const auto begin = arg.find_first_not_of('-');
+  return begin != arg.npos && arg.substr(begin).starts_with("benchmark_");
+}
+
+// The value of --benchmark_`name`=..., the last as it counts; empty without
+// one.
+std::string BenchmarkFlag(const std::vector<std::string>& args,
+                          const std::string& name) {
+  std::string value;
+  for (const std::string& arg : args) {
+    const auto equals = arg.find('=');
+    if (equals != arg.npos &&
+        arg.substr(0, equals).ends_with("benchmark_" + name)) {
+      value = arg.substr(equals + 1);
+    }
+  }
+  return value;
+}
+
+// Those that Google Benchmark would answer otherwise than we do.
+bool AreValid(const std::vector<std::string>& args, std::string* error) {
+  const std::string min_time = BenchmarkFlag(args, "min_time");
+  const auto seconds = quatro::ParseFiniteNumber(min_time);
+  if (!min_time.empty() && !(seconds && *seconds >= 0.0)) {
+    *error = "--benchmark_min_time=" + min_time + ", must be a number >= 0";
+    return false;
+  }
+  const std::string repetitions = BenchmarkFlag(args, "repetitions");
+  const auto count = quatro::ParseFiniteNumber(repetitions);
+  if (!repetitions.empty() && !(count && *count == std::floor(*count) &&
+                                *count >= 1 && *count <= kMaxRepetitions)) {
+    *error = "--benchmark_repetitions=" + repetitions +
+             ", must be a whole number from 1 to 100000";
+    return false;
+  }
+  for (const char* name : {"format", "out_format"}) {
+    const std::string format = BenchmarkFlag(args, name);
+    if (format.empty() || format == "json" || format == "console" ||
+        format == "csv") {
+      continue;
+    }
+    *error = std::string("--benchmark_") + name + "=" + format +
+             ", must be json, console or csv";
+    return false;
+  }
+  return true;
+}
+
+std::optional<std::vector<int>> ParseSizes(std::string* error) {
+  std::vector<int> sizes;
+  for (const std::string_view field : quatro::SplitFields(FLAGS_sizes, ",")) {
+    const auto size = quatro::ParseFiniteNumber(field);
+    if (!size || *size != std::floor(*size) || *size < 3 || *size > kMaxSize) {
+      *error = "--sizes=" + FLAGS_sizes +
+               ", must be whole numbers from 3 to 10000000";
+      return std::nullopt;
+    }
+    sizes.push_back(static_cast<int>(*size));
+  }
+  return sizes;
+}
+
+// Whether a pair of files can be registered at all.
+bool CanUse(const std::string& path,
+            const quatro::PointCloud& cloud,
+            double voxel_size,
+            std::string* error) {
+  if (cloud.points.cols() == 0) {
+    *error = path + ": has no points";
+    return false;
+  }
+  std::string problem;
+  if (quatro::SampleVoxels(cloud.points, voxel_size, &problem)) return true;
+  *error = path + ": " + problem;
+  return false;
+}
+
+const char* SimdName() {
+  switch (quatro::BestSimdLevel()) {
+    case quatro::SimdLevel::kAvx512:
+      return "AVX-512";
+    case quatro::SimdLevel::kAvx2:
+      return "AVX2";
+    case quatro::SimdLevel::kBaseline:
+      break;
+  }
+  return "baseline";
+}
+
+int Main(int argc, char** argv) {
+  using quatro::Fail;
+  std::vector<char*> ours = {argv[0]};
+  std::vector<char*> theirs = {argv[0]};
+  std::vector<std::string> their_args;
+  for (int i = 1; i < argc; ++i) {
+    if (IsOfBenchmark(argv[i])) {
+      theirs.push_back(argv[i]);
+      their_args.emplace_back(argv[i]);
+    } else {
+      ours.push_back(argv[i]);
+    }
+  }
+  int num_theirs = static_cast<int>(theirs.size());
+  const int num_ours = static_cast<int>(ours.size());
+  ours.push_back(nullptr);
+  theirs.push_back(nullptr);
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, "benchmark_main", num_ours, ours.data())) {
+    return *exit_code;
+  }
+
+  std::string error;
+  const auto sizes = ParseSizes(&error);
+  if (!sizes) return Fail(error);
+  if (!AreValid(their_args, &error)) return Fail(error);
+  auto options = quatro::MakePreset(FLAGS_preset);
+  if (!options) return Fail("--preset=" + FLAGS_preset + ": there is none");
+  options->num_threads = FLAGS_threads;
+  if (!options->IsValid(&error)) return Fail(error);
+  if (FLAGS_source.empty() != FLAGS_target.empty()) {
+    return Fail("--source and --target go together");
+  }
+  const std::string out = BenchmarkFlag(their_args, "out");
+  if (!out.empty() &&
+      !quatro::CanWriteAll({out}, {FLAGS_source, FLAGS_target}, &error)) {
+    return Fail(error);
+  }
+  std::optional<quatro::PointCloud> source, target;
+  if (!FLAGS_source.empty()) {
+    source = quatro::ReadCloud(FLAGS_source, &error);
+    if (!source) return Fail(error);
+    target = quatro::ReadCloud(FLAGS_target, &error);
+    if (!target) return Fail(error);
+    const double voxel_size = options->front_end.voxel_size;
+    if (!CanUse(FLAGS_source, *source, voxel_size, &error) ||
+        !CanUse(FLAGS_target, *target, voxel_size, &error)) {
+      return Fail(error);
+    }
+  }
+
+  benchmark::Initialize(&num_theirs, theirs.data());
+  if (num_theirs > 1) return Fail(std::string(theirs[1]) + ": not a flag");
+  std::unique_ptr<const quatro::PairInput> pair;
+  quatro::AddPairStages([&]() -> const quatro::PairInput& {
+    if (!pair) {
+      if (!source) {
+        // Options are the defaults, which are valid.
+        auto simulated = quatro::SimulateSetPair({}, 0, &error);
+        source = std::move(simulated->source);
+        target = std::move(simulated->target);
+      }
+      pair = std::make_unique<const quatro::PairInput>(
+          quatro::MakePairInput(*source, *target, *options));
+      std::fprintf(stderr,
+                   "%td and %td voxels, %td matches, %s: %s\n",
+                   pair->clouds[0].voxels.cols(),
+                   pair->clouds[1].voxels.cols(),
+                   pair->matched.matched_source.cols(),
+                   quatro::StatusName(pair->summary.verdict.status),
+                   pair->summary.verdict.reason.c_str());
+    }
+    return *pair;
+  });
+  quatro::AddSizeStages(*sizes, FLAGS_threads);
+
+  const quatro::BuildInfo build = quatro::GetBuildInfo();
+  benchmark::AddCustomContext("version", build.version + " " + build.commit);
+  benchmark::AddCustomContext("compiler", build.compiler);
+  benchmark::AddCustomContext("cpu", quatro::GetMachineInfo().cpu);
+  benchmark::AddCustomContext("simd", SimdName());
+  benchmark::AddCustomContext("threads", std::to_string(FLAGS_threads));
+  benchmark::AddCustomContext("preset", FLAGS_preset);
+  benchmark::AddCustomContext("pair",
+                              FLAGS_source.empty()
+                                  ? "simulated"
+                                  : FLAGS_source + " -> " + FLAGS_target);
+  const std::size_t num_run = benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  // It has said so: the filter fits nothing, or is no regular expression.
+  return num_run == 0 ? quatro::kExitBadInput : quatro::kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

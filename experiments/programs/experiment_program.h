@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// quatro_experiment as a function, so that a program of a user's own can run
+// the same experiments with estimators of its own beside ours:
+//
+//   int main(int argc, char** argv) {
+//     return quatro::RunExperimentProgram(argc, argv, {{"mine", "...", Make}});
+//   }
+//
+// docs/own_estimator.md is an example.
+
+#ifndef QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_PROGRAM_H_
+#define QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_PROGRAM_H_
+
+#include <vector>
+
+#include "experiments/programs/own_method.h"
+
+namespace quatro {
+
+// Returns the program's exit code; --helpshort says what there is to run.
+int RunExperimentProgram(int argc,
+                         char** argv,
+                         const std::vector<OwnMethod>& own = {});
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_PROGRAM_H_

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The INS on the command line. Angles are in degrees there, and nowhere else.
+
+#ifndef QUATRO_EXPERIMENTS_PROGRAMS_INS_FLAGS_H_
+#define QUATRO_EXPERIMENTS_PROGRAMS_INS_FLAGS_H_
+
+#include <optional>
+#include <string>
+
+#include "experiments/programs/json_report.h"
+#include "robust/registration/ins.h"
+
+namespace quatro {
+
+// As given: --ins_mode, --source_rpy_deg, --target_rpy_deg, --ins_std_deg and
+// --gravity.
+struct InsFlags {
+  std::string mode = "none";   // relative, leveled or fused.
+  std::string source_rpy_deg;  // "roll,pitch,yaw"
+  std::string target_rpy_deg;
+  double std_deg = 0.5;
+  std::string gravity = "0,0,1";  // What is up, of any length but 0.
+};
+
+// "none", "relative", "leveled" or "fused".
+const char* InsModeName(InsMode mode);
+
+// Nullopt, with *error set to what is wrong with which flag. Both attitudes
+// must be given if the mode needs them, and neither if it does not.
+std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
+                                        std::string* error);
+
+Json DescribeOptions(const InsOptions& ins);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_PROGRAMS_INS_FLAGS_H_

@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/programs/json_report.h"
+
+#include <quatro/version.h>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "features/base/rigid3.h"
+
+namespace quatro {
+namespace {
+
+const char* Name(ConsistencyTest test) {
+  switch (test) {
+    case ConsistencyTest::kLength:
+      return "length";
+    case ConsistencyTest::kPlanar:
+      return "planar";
+    case ConsistencyTest::kPlanarAndHeight:
+      break;
+  }
+  return "planar_and_height";
+}
+
+const char* Name(Pruning pruning) {
+  switch (pruning) {
+    case Pruning::kCliqueHeuristic:
+      return "clique_heuristic";
+    case Pruning::kExactClique:
+      return "exact_clique";
+    case Pruning::kMaxCore:
+      return "max_core";
+    case Pruning::kNone:
+      break;
+  }
+  return "none";
+}
+
+const char* Name(TimLayout layout) {
+  switch (layout) {
+    case TimLayout::kRing:
+      return "ring";
+    case TimLayout::kComplete:
+      return "complete";
+    case TimLayout::kRandom:
+      break;
+  }
+  return "random";
+}
+
+const char* Name(SurrogateType surrogate) {
+  switch (surrogate) {
+    case SurrogateType::kGemanMcClure:
+      return "geman_mcclure";
+    case SurrogateType::kWelsch:
+      return "welsch";
+    case SurrogateType::kTruncatedLeastSquares:
+      break;
+  }
+  return "truncated_least_squares";
+}
+
+const char* Name(GncStart start) {
+  return start == GncStart::kIdentity ? "identity" : "plain_fit";
+}
+
+const char* Name(YawSolver solver) {
+  return solver == YawSolver::kExact ? "exact" : "gnc";
+}
+
+Json Rows(const Rigid3& motion) {
+  const Eigen::Matrix4d matrix = motion.ToMatrix();
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    rows.push_back(
+        {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
+  }
+  return rows;
+}
+
+Json Rows(const Matrix6& matrix) {
+  Json rows = Json::array();
+  for (const auto row : matrix.rowwise()) {
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return rows;
+}
+
+Json OrNull(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json Describe(const std::optional<YawCertificate>& certificate) {
+  if (!certificate) return nullptr;
+  return {{"gnc_cost", OrNull(certificate->gnc_cost)},
+          {"optimal_cost", certificate->optimal_cost},
+          {"gap", OrNull(certificate->gap)}};
+}
+
+Json Describe(const Rival& rival) {
+  return {{"agreeing", rival.num_agreeing},
+          {"margin", rival.margin},
+          {"same_matches", rival.has_same_matches},
+          {"target_from_source", Rows(rival.target_from_source)}};
+}
+
+Json Describe(const GeometricEvidence& evidence) {
+  const auto& direction = evidence.weakest_direction;
+  const RivalPose& rival = evidence.rival;
+  return {
+      {"structure_overlap", evidence.structure_overlap},
+      {"median_residual_voxels", evidence.median_residual},
+      {"contradicted_share", OrNull(evidence.free_space.ContradictedShare())},
+      {"contradicted", evidence.free_space.num_contradicted},
+      {"weakest_share", evidence.weakest_share},
+      {"weakest_direction", {direction.x(), direction.y(), direction.z()}},
+      {"coarse_overlap", rival.overlap},
+      {"rival_overlap", rival.rival_overlap},
+      {"rival_contradicted_share",
+       OrNull(evidence.rival_free_space.ContradictedShare())},
+      {"rival_yaw_deg", rival.yaw * 180.0 / M_PI},
+      {"rival_shift_m", {rival.shift.x(), rival.shift.y(), rival.shift.z()}},
+      {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
+}
+
+// What the verdict was made from.
+Json DescribeEvidence(const Verdict& verdict) {
+  Json evidence = {{"false_alarms", Json::array()}};
+  for (const FalseAlarms& alarms : verdict.false_alarms) {
+    evidence["false_alarms"].push_back(
+        {{"stage", alarms.stage},
+         {"tested", alarms.num_tested},
+         {"agreeing", alarms.num_agreeing},
+         {"chance", alarms.chance},
+         {"log10_false_alarms", alarms.log10_false_alarms}});
+  }
+  evidence["rival"] = verdict.rival ? Describe(*verdict.rival) : Json(nullptr);
+  evidence["geometry"] =
+      verdict.geometry ? Describe(*verdict.geometry) : Json(nullptr);
+  Json features = Json::object();
+  for (const Feature& feature : verdict.features) {
+    features[feature.name] = feature.value;
+  }
+  evidence["features"] = features;
+  return evidence;
+}
+
+const char* Name(NotHeld reason) {
+  switch (reason) {
+    case NotHeld::kNoData:
+      return "no_data";
+    case NotHeld::kWithinNoise:
+      return "within_noise";
+    case NotHeld::kUncertain:
+      return "uncertain";
+    case NotHeld::kAssumed:
+      return "assumed";
+    case NotHeld::kNoSurface:
+      break;
+  }
+  return "no_surface";
+}
+
+Json Describe(const UnheldDirection& direction) {
+  const Eigen::Vector3d& a = direction.axis;
+  const Eigen::Vector3d& p = direction.point;
+  const bool is_rotation = direction.freedom == Freedom::kRotation;
+  return {{"freedom", is_rotation ? "rotation" : "translation"},
+          {"reason", Name(direction.reason)},
+          {"axis", {a.x(), a.y(), a.z()}},
+          {"point", is_rotation ? Json({p.x(), p.y(), p.z()}) : Json(nullptr)},
+          {"standard_deviation", OrNull(direction.standard_deviation)},
+          {"text", direction.Describe()}};
+}
+
+// `covariance`, `unheld_directions`, and what they rest on.
+void AddUncertainty(const std::optional<PoseCovariance>& uncertainty,
+                    Json* report) {
+  (*report)["covariance"] = nullptr;
+  (*report)["covariance_about"] = nullptr;  // The same about the inliers.
+  (*report)["unheld_directions"] = Json::array();
+  (*report)["match_sigma"] = nullptr;
+  if (!uncertainty) return;
+  if (uncertainty->covariance) {
+    (*report)["covariance"] = Rows(*uncertainty->covariance);
+    const Eigen::Vector3d& c = uncertainty->center;
+    (*report)["covariance_about"] = {
+        {"center", {c.x(), c.y(), c.z()}},
+        {"covariance", Rows(*uncertainty->covariance_at_center)}};
+  }
+  for (const UnheldDirection& direction : uncertainty->unheld) {
+    (*report)["unheld_directions"].push_back(Describe(direction));
+  }
+  (*report)["match_sigma"] = {
+      {"assumed", uncertainty->sigma},
+      {"from_residuals", OrNull(uncertainty->estimated_sigma)}};
+}
+
+// Microseconds are as fine as a clock is believed.
+double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
+
+}  // namespace
+
+Json MakeReport(const std::string& method,
+                const Verdict& verdict,
+                const PoseSummary& solution,
+                const std::vector<StageTime>& stage_times,
+                double total_seconds) {
+  Json report;
+  report["status"] = StatusName(verdict.status);
+  report["reason"] = verdict.reason;
+  report["probability"] = verdict.probability;
+  report["message"] = solution.message;
+  report["target_from_source"] = nullptr;
+  report["yaw_deg"] = nullptr;
+  if (solution.IsUsable()) {
+    report["target_from_source"] = Rows(*solution.target_from_source);
+    report["yaw_deg"] =
+        Yaw(solution.target_from_source->rotation) * 180.0 / M_PI;
+  }
+  report["unpolished_target_from_source"] =
+      solution.unpolished_target_from_source
+          ? Rows(*solution.unpolished_target_from_source)
+          : Json(nullptr);
+  if (solution.scale != 1.0) report["scale"] = solution.scale;
+  report["counts"] = {{"correspondences", solution.num_distinct},
+                      {"clique", solution.num_consistent},
+                      {"tims", solution.num_tims},
+                      {"rotation_inliers", solution.num_rotation_inliers},
+                      {"translation_inliers", solution.num_translation_inliers},
+                      {"agreeing", verdict.num_agreeing}};
+  report["evidence"] = DescribeEvidence(verdict);
+  AddUncertainty(solution.covariance, &report);
+  report["certificate"] = Describe(solution.certificate);
+  if (solution.crosscheck) {
+    report["crosscheck"] = {
+        {"subproblems", solution.crosscheck->num_subproblems},
+        {"max_rotation_difference_rad",
+         solution.crosscheck->max_rotation_difference},
+        {"max_translation_difference_m",
+         solution.crosscheck->max_translation_difference}};
+  }
+  Json timings;
+  for (const StageTime& time : stage_times) {
+    timings[time.stage] = Milliseconds(time.seconds);
+  }
+  timings["total"] = Milliseconds(total_seconds);
+  report["timings_ms"] = timings;
+  report["notes"] = Json::object();
+  for (const StageNote& note : solution.notes) {
+    report["notes"][note.stage] = note.text;
+  }
+  report["method"] = method;
+  return report;
+}
+
+Json Describe(const std::optional<StructureHold>& hold) {
+  if (!hold) return nullptr;
+  const Eigen::Vector3d& axis = hold->weakest_level_axis;
+  return {{"points_met", hold->num_met},
+          {"structure_met", hold->num_structure},
+          {"weakest_level_axis", {axis.x(), axis.y(), axis.z()}},
+          {"weakest_level_share", hold->weakest_level_share}};
+}
+
+Json DescribeRefinement(const std::optional<RefinementSummary>& refinement) {
+  if (!refinement) return nullptr;
+  const AlignmentSummary& alignment = refinement->alignment;
+  return {{"method", RefinementName(refinement->method)},
+          {"accepted", refinement->is_accepted},
+          {"message", refinement->message},
+          {"termination", TerminationName(alignment.termination)},
+          {"iterations", alignment.iterations.size()},
+          {"inliers", alignment.num_inliers},
+          {"moved_m", refinement->moved_translation},
+          {"moved_deg", refinement->moved_rotation * 180.0 / M_PI},
+          {"cost", alignment.cost},
+          {"conditioning", alignment.conditioning},
+          {"unrefined_target_from_source",
+           Rows(refinement->unrefined_target_from_source)}};
+}
+
+Json DescribeOptions(const QuatroOptions& options) {
+  return {{"noise_bound", options.noise_bound},
+          {"tim_bound_factor", options.tim_bound_factor},
+          {"consistency_test", Name(options.consistency_test)},
+          {"pruning", Name(options.pruning)},
+          {"tim_layout", Name(options.tim_layout)},
+          {"yaw_solver", Name(options.yaw_solver)},
+          {"surrogate", Name(options.surrogate)},
+          {"gnc_start", Name(options.gnc.start)},
+          {"gnc_mu_step", options.gnc.mu_step},
+          {"gnc_max_num_iterations", options.gnc.max_num_iterations},
+          {"replace_missed_optimum", options.replace_missed_optimum},
+          {"recover_translation", options.recover_translation},
+          {"polish", options.polish},
+          {"seed", options.seed}};
+}
+
+Json DescribeOptions(const FrontEndOptions& options) {
+  return {{"voxel_size", options.voxel_size},
+          {"normal_radius", options.normal_radius},
+          {"fpfh_radius", options.fpfh_radius},
+          {"tuple_test", options.tuple_test},
+          {"tuple_scale", options.tuple.scale}};
+}
+
+std::string Version() { return QUATRO_VERSION; }
+
+}  // namespace quatro

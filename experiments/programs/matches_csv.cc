@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/programs/matches_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "experiments/base/one_line.h"
+#include "features/base/file.h"
+
+namespace quatro {
+namespace {
+
+constexpr std::array<std::string_view, 6> kNames = {
+    "sx", "sy", "sz", "tx", "ty", "tz"};
+constexpr std::size_t kMaxQuoted = 40;
+
+std::vector<std::string_view> Fields(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const bool has_commas = line.find(',') != std::string_view::npos;
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) {
+      if (has_commas) fields.emplace_back();
+      return fields;
+    }
+    line.remove_prefix(begin);
+    std::size_t end = line.find_first_of(has_commas ? "," : kBlanks);
+    const bool is_last = end == std::string_view::npos;
+    if (is_last) end = line.size();
+    std::string_view field = line.substr(0, end);
+    field = field.substr(0, field.find_last_not_of(kBlanks) + 1);
+    fields.push_back(field);
+    if (is_last) return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> ParseNumber(std::string_view field) {
+  if (field.starts_with('+')) field.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, status] =
+      std::from_chars(field.data(), field.data() + field.size(), value);
+  if (status != std::errc() || end != field.data() + field.size()) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::string Quoted(std::string_view text) {
+  const bool is_long = text.size() > kMaxQuoted;
+  const std::string quoted(text.substr(0, kMaxQuoted));
+  return "'" + OneLine(quoted) + (is_long ? "...'" : "'");
+}
+
+}  // namespace
+
+std::optional<MatchedPoints> ReadMatches(const std::string& path,
+                                         std::string* error) {
+  const std::optional<std::string> text = ReadWholeFile(path, error);
+  if (!text) return std::nullopt;
+  if (text->empty()) {
+    *error = path + ": is empty; expected lines of sx,sy,sz,tx,ty,tz";
+    return std::nullopt;
+  }
+
+  std::vector<double> values;
+  std::string_view rest = *text;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (rest.starts_with(kByteOrderMark)) {
+    rest.remove_prefix(kByteOrderMark.size());
+  }
+  bool is_first = true;
+  for (int line_number = 1; !rest.empty(); ++line_number) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    const std::vector<std::string_view> fields = Fields(line);
+    if (fields.empty() || fields.front().starts_with('#')) continue;
+
+    const std::string where = path + ": line " + std::to_string(line_number);
+    if (fields.size() != kNames.size()) {
+      *error = where + " has " + std::to_string(fields.size()) +
+               " columns, must have 6: sx,sy,sz,tx,ty,tz";
+      return std::nullopt;
+    }
+    const bool is_names =
+        is_first && std::ranges::find(kNames, fields.front()) != kNames.end();
+    is_first = false;
+    if (is_names && std::ranges::equal(fields, kNames)) continue;
+    if (is_names) {
+      *error = where + ": names of columns must be sx,sy,sz,tx,ty,tz in order";
+      return std::nullopt;
+    }
+    for (std::size_t column = 0; column < kNames.size(); ++column) {
+      const std::optional<double> value = ParseNumber(fields[column]);
+      if (!value || !std::isfinite(*value)) {
+        *error = where + ", column " + std::string(kNames[column]) + ": " +
+                 Quoted(fields[column]) +
+                 (value ? " is not finite" : " is not a number");
+        return std::nullopt;
+      }
+      values.push_back(*value);
+    }
+  }
+
+  if (values.empty()) return MatchedPoints();
+  const auto num_matches = static_cast<Eigen::Index>(values.size() / 6);
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> rows(
+      values.data(), 6, num_matches);
+  return MatchedPoints{rows.topRows<3>(), rows.bottomRows<3>()};
+}
+
+std::string FormatMatches(const PointsRef& source, const PointsRef& target) {
+  std::string text = "sx,sy,sz,tx,ty,tz\n";
+  std::array<char, 32> number;
+  for (Eigen::Index i = 0; i < source.cols(); ++i) {
+    for (int column = 0; column < 6; ++column) {
+      const double value =
+          column < 3 ? source(column, i) : target(column - 3, i);
+      const auto result =
+          std::to_chars(number.data(), number.data() + number.size(), value);
+      text.append(number.data(), result.ptr);
+      text += column < 5 ? ',' : '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace quatro

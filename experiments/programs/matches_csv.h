@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Matched points as text: one match a line, sx,sy,sz,tx,ty,tz [m].
+//
+// Commas, blanks or tabs separate; a first line of names, empty lines and lines
+// that start with # are passed over.
+
+#ifndef QUATRO_EXPERIMENTS_PROGRAMS_MATCHES_CSV_H_
+#define QUATRO_EXPERIMENTS_PROGRAMS_MATCHES_CSV_H_
+
+#include <optional>
+#include <string>
+
+#include "features/base/types.h"
+
+namespace quatro {
+
+struct MatchedPoints {
+  Points source;  // [m]
+  Points target;  // [m]
+};
+
+// Returns nullopt and says file, line, column and reason in *error for anything
+// but six finite numbers a line, and for an empty file. A file that has a line
+// of names and no matches is read as no matches.
+std::optional<MatchedPoints> ReadMatches(const std::string& path,
+                                         std::string* error);
+
+// With a line of names; every number comes back bit for bit.
+std::string FormatMatches(const PointsRef& source, const PointsRef& target);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_PROGRAMS_MATCHES_CSV_H_

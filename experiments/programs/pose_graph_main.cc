@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "experiments/base/outputs.h"
+#include "experiments/pose_graphs/g2o.h"
+#include "experiments/pose_graphs/pose_graph_problem.h"
+#include "experiments/pose_graphs/pose_graph_protocol.h"
+#include "experiments/pose_graphs/pose_graph_worlds.h"
+#include "experiments/programs/program.h"
+#include "experiments/programs/progress_line.h"
+#include "experiments/protocols/synthetic_protocols.h"
+
+DEFINE_string(input, "", "g2o file; empty: a generated world");
+DEFINE_string(output, "", "g2o file for the answer; of a protocol, CSV");
+DEFINE_string(loss,
+              "gnc",
+              "About loops that may be wrong: gnc, none, huber, cauchy, tukey");
+DEFINE_double(inlier_probability,
+              0.999999,
+              "Share of right loops that the bound lets by");
+DEFINE_string(gnc_start,
+              "plain_fit",
+              "Which residuals start mu: plain_fit, or identity for those of "
+              "the poses given");
+DEFINE_double(mu_step, 1.4, "By which mu moves in an iteration");
+DEFINE_bool(chain_odometry,
+            false,
+            "Start from the odometry alone and not from the poses of --input; "
+            "a generated world always does");
+DEFINE_string(world, "manhattan", "manhattan (in the plane) or sphere");
+DEFINE_int32(poses, 400, "Of the generated world");
+DEFINE_int32(loops, 200, "Of the generated world, right and wrong");
+DEFINE_double(wrong_share, 0.5, "Of the loops that are wrong");
+DEFINE_double(sigma_m, 0.02, "Noise of the generated world on each axis [m]");
+DEFINE_double(sigma_deg, 0.3, "The same about each axis [deg]");
+DEFINE_int32(max_wrong_steps,
+             0,
+             "Wrong loops join poses this many steps apart at most; 0: any");
+DEFINE_uint64(seed, 0, "Of the generated world");
+DEFINE_string(world_output, "", "g2o file for the generated world as it is");
+DEFINE_string(protocol,
+              "",
+              "wrong_loops: success against the share of wrong loops, for "
+              "every loss; numbers for draw_wrong_loops.py");
+DEFINE_int32(seeds, 10, "Worlds of each kind, for --protocol");
+DEFINE_bool(full_report, false, "Print the trace of mu and cost as well");
+
+namespace {
+
+using quatro::Fail;
+
+constexpr char kUsage[] =
+    "finds the poses of a graph whose loops may be wrong.\n"
+    "\n"
+    "  quatro_pose_graph --input=graph.g2o --output=answer.g2o\n"
+    "  quatro_pose_graph --world=sphere --wrong_share=0.5\n"
+    "  quatro_pose_graph --protocol=wrong_loops --output=wrong_loops.csv\n"
+    "\n"
+    "Edges between poses that follow each other are odometry and taken as\n"
+    "right, the others are loops. Prints what was done. Exits with 0; 1 if "
+    "there\n"
+    "is no answer, or odometry and the loops that were kept leave the graph "
+    "in\n"
+    "parts (nothing is written then); 2 if a flag or a file is wrong.";
+
+std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
+  quatro::PoseGraphOptions options;
+  const auto loss = quatro::ParseLoopLoss(FLAGS_loss);
+  if (!loss) {
+    *error =
+        "--loss=" + FLAGS_loss + ", must be gnc, none, huber, cauchy or tukey";
+    return std::nullopt;
+  }
+  options.loss = *loss;
+  options.inlier_probability = FLAGS_inlier_probability;
+  if (!(FLAGS_inlier_probability > 0.0 && FLAGS_inlier_probability < 1.0)) {
+    *error = "--inlier_probability must be > 0 and < 1";
+    return std::nullopt;
+  }
+  if (FLAGS_gnc_start != "plain_fit" && FLAGS_gnc_start != "identity") {
+    *error =
+        "--gnc_start=" + FLAGS_gnc_start + ", must be plain_fit or identity";
+    return std::nullopt;
+  }
+  options.gnc.start = FLAGS_gnc_start == "identity"
+                          ? quatro::GncStart::kIdentity
+                          : quatro::GncStart::kPlainFit;
+  options.gnc.mu_step = FLAGS_mu_step;
+  if (!options.gnc.IsValid(error)) {
+    *error = "--" + *error;
+    return std::nullopt;
+  }
+  return options;
+}
+
+quatro::GraphWorldOptions WorldFromFlags() {
+  quatro::GraphWorldOptions world;
+  world.world = FLAGS_world;
+  world.num_poses = FLAGS_poses;
+  world.num_loops = FLAGS_loops;
+  world.wrong_share = FLAGS_wrong_share;
+  world.max_wrong_steps = FLAGS_max_wrong_steps;
+  world.translation_sigma = FLAGS_sigma_m;
+  world.rotation_sigma = FLAGS_sigma_deg * M_PI / 180.0;
+  world.seed = FLAGS_seed;
+  return world;
+}
+
+int RunProtocol(const quatro::PoseGraphOptions& options) {
+  std::string error;
+  if (FLAGS_protocol != "wrong_loops") {
+    return Fail("--protocol=" + FLAGS_protocol + ", must be wrong_loops");
+  }
+  if (!FLAGS_input.empty() || !FLAGS_world_output.empty()) {
+    return Fail(
+        "--protocol makes its own worlds, must not go with --input or "
+        "--world_output");
+  }
+  if (FLAGS_seeds < 1 || FLAGS_seeds > quatro::kMaxSeeds) {
+    return Fail("--seeds must be 1 to " + std::to_string(quatro::kMaxSeeds));
+  }
+  // The most right loops are asked for at the least wrong share.
+  for (const char* name : {"manhattan", "sphere"}) {
+    for (int seed = 0; seed < FLAGS_seeds; ++seed) {
+      quatro::GraphWorldOptions hardest = WorldFromFlags();
+      hardest.world = name;
+      hardest.wrong_share = 0.1;
+      hardest.seed = static_cast<std::uint64_t>(seed);
+      if (!quatro::MakeGraphWorld(hardest, &error)) return Fail("--" + error);
+    }
+  }
+  const quatro::Table table = quatro::RunWrongLoopProtocol(
+      FLAGS_seeds, WorldFromFlags(), options, quatro::ProgressLine("worlds"));
+  std::fputs(quatro::FormatTable(table).c_str(), stdout);
+  if (!FLAGS_output.empty() &&
+      !quatro::WriteOutputs({{FLAGS_output, quatro::FormatCsv(table)}},
+                            &error)) {
+    return Fail(error);
+  }
+  return quatro::kExitDone;
+}
+
+// How many of the wrong and of the right loops kept some weight.
+void PrintTruth(const quatro::GraphWorld& world,
+                const quatro::PoseGraphOptions& options,
+                const quatro::PoseGraph& answer,
+                const std::vector<double>& weights) {
+  int num_wrong = 0, num_wrong_kept = 0, num_right_lost = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (world.is_wrong[i]) {
+      ++num_wrong;
+      if (weights[i] > 0.0) ++num_wrong_kept;
+    } else if (weights[i] == 0.0) {
+      ++num_right_lost;
+    }
+  }
+  quatro::PoseGraph clean = quatro::WithoutWrongLoops(world);
+  quatro::PoseGraphOptions plain = options;
+  plain.loss = quatro::LoopLoss::kNone;
+  quatro::SolvePoseGraph(plain, &clean);
+  const auto difference =
+      quatro::LargestDifference(answer.world_from_pose, clean.world_from_pose);
+  std::printf(
+      "of %d wrong loops %d kept weight, %d right ones lost theirs; poses "
+      "differ from those without wrong loops by %.3g m and %.3g rad at most\n",
+      num_wrong,
+      num_wrong_kept,
+      num_right_lost,
+      difference.translation,
+      difference.rotation);
+}
+
+int Main(int argc, char** argv) {
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, "pose_graph_main", argc, argv)) {
+    return *exit_code;
+  }
+  std::string error;
+  const auto options = OptionsFromFlags(&error);
+  if (!options) return Fail(error);
+  if (!quatro::CanWriteAll(
+          {FLAGS_output, FLAGS_world_output}, {FLAGS_input}, &error)) {
+    return Fail(error);
+  }
+  if (!FLAGS_protocol.empty()) return RunProtocol(*options);
+
+  std::optional<quatro::GraphWorld> world;
+  quatro::PoseGraph graph;
+  if (FLAGS_input.empty()) {
+    world = quatro::MakeGraphWorld(WorldFromFlags(), &error);
+    if (!world) return Fail("--" + error);
+    graph = world->graph;
+  } else {
+    if (!FLAGS_world_output.empty()) {
+      return Fail("--world_output goes with a generated world, not --input");
+    }
+    auto read = quatro::ReadG2o(FLAGS_input, &error);
+    if (!read) return Fail(error);
+    graph = std::move(*read);
+    if (FLAGS_chain_odometry) quatro::ChainOdometry(&graph);
+  }
+  const auto summary = quatro::SolvePoseGraph(*options, &graph);
+  std::printf("%zu poses, %zu edges, %.3f s\n%s\n",
+              graph.ids.size(),
+              graph.edges.size(),
+              summary.seconds,
+              summary.report.c_str());
+  if (FLAGS_full_report) {
+    std::fputs(summary.gnc.FullReport().c_str(), stdout);
+  }
+  if (!summary.is_usable) return quatro::kExitNotVouchedFor;
+  const auto parts = quatro::FirstOfParts(graph, summary.weights);
+  if (parts.size() > 1) {
+    std::printf(
+        "the graph is in %zu parts: neither odometry nor a loop that was kept "
+        "joins pose %lld to pose %lld; add edges between them\n",
+        parts.size(),
+        static_cast<long long>(graph.ids[parts[1]]),
+        static_cast<long long>(graph.ids[parts[0]]));
+    return quatro::kExitNotVouchedFor;
+  }
+  if (world) PrintTruth(*world, *options, graph, summary.weights);
+
+  std::vector<quatro::OutputFile> files;
+  if (!FLAGS_output.empty()) {
+    files.push_back({FLAGS_output, quatro::FormatG2o(graph)});
+  }
+  if (world && !FLAGS_world_output.empty()) {
+    files.push_back({FLAGS_world_output, quatro::FormatG2o(world->graph)});
+  }
+  if (!quatro::WriteOutputs(files, &error)) return Fail(error);
+  return quatro::kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/programs/program.h"
+
+#include <gflags/gflags.h>
+
+#include <quatro/version.h>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <system_error>
+
+#include "experiments/base/one_line.h"
+#include "experiments/base/outputs.h"
+#include "experiments/programs/progress_line.h"
+
+DECLARE_bool(help);
+DECLARE_bool(helpshort);
+DECLARE_bool(version);
+
+namespace GFLAGS_NAMESPACE {
+extern void (*gflags_exitfunc)(int);  // Called after a flag that is wrong.
+}
+
+namespace quatro {
+namespace {
+
+// Without a string, for which there may be no memory.
+void TellOutOfMemory() {
+  EndProgressLine();
+  std::fprintf(stderr,
+               "%s: out of memory; free some, raise the limit (ulimit -v), or "
+               "take fewer --threads or a smaller input\n",
+               gflags::ProgramInvocationShortName());
+}
+
+// A thread that can't be started says EAGAIN: there is no room for its stack.
+bool IsForMemory(const std::system_error& error) {
+  return error.code() == std::errc::resource_unavailable_try_again ||
+         error.code() == std::errc::not_enough_memory;
+}
+
+// Of the exception that is being handled.
+void TellException() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return TellOutOfMemory();
+  } catch (const std::system_error& error) {
+    if (IsForMemory(error)) return TellOutOfMemory();
+    Fail(std::string(error.what()) + "; not expected here, please report it");
+  } catch (const std::exception& error) {
+    Fail(std::string(error.what()) + "; not expected here, please report it");
+  }
+}
+
+// For an exception that nobody on its thread catches: a library's own thread.
+[[noreturn]] void EndOrderly() {
+  if (!std::current_exception()) std::abort();
+  try {
+    TellException();
+  } catch (...) {
+    std::abort();
+  }
+  std::_Exit(kExitStopped);
+}
+
+}  // namespace
+
+int RunProgram(const std::function<int(int argc, char** argv)>& run,
+               int argc,
+               char** argv) {
+  std::set_terminate(EndOrderly);
+  try {
+    const int exit_code = run(argc, argv);
+    const bool has_answer =
+        exit_code == kExitDone || exit_code == kExitNotVouchedFor;
+    std::string error;
+    return has_answer && !FlushOutput(&error) ? Fail(error) : exit_code;
+  } catch (const std::exception&) {
+    TellException();
+  }
+  return kExitStopped;
+}
+
+std::optional<int> ParseFlags(const std::string& usage,
+                              const std::string& main_file,
+                              int argc,
+                              char** argv) {
+  gflags::SetUsageMessage(usage + " Exits with 3 if memory runs out.");
+  GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::exit(kExitBadInput); };
+  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
+  if (FLAGS_version) {
+    std::printf(
+        "%s %s\n", gflags::ProgramInvocationShortName(), QUATRO_VERSION);
+    return kExitDone;
+  }
+  if (FLAGS_help || FLAGS_helpshort) {
+    gflags::ShowUsageWithFlagsRestrict(argv[0], main_file.c_str());
+    return kExitDone;
+  }
+  if (argc > 1) return Fail(std::string(argv[1]) + ": not a flag");
+  return std::nullopt;
+}
+
+int Fail(const std::string& error) {
+  EndProgressLine();
+  std::fprintf(stderr,
+               "%s: %s\n",
+               gflags::ProgramInvocationShortName(),
+               OneLine(error).c_str());
+  return kExitBadInput;
+}
+
+}  // namespace quatro

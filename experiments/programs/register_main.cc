@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gflags/gflags.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "experiments/base/outputs.h"
+#include "experiments/programs/explain.h"
+#include "experiments/programs/ins_flags.h"
+#include "experiments/programs/json_report.h"
+#include "experiments/programs/matches_csv.h"
+#include "experiments/programs/methods.h"
+#include "experiments/programs/picture.h"
+#include "experiments/programs/program.h"
+#include "experiments/report/pair_report.h"
+#include "experiments/report/report_template.h"
+#include "experiments/runner/manifest.h"
+#include "features/io/cloud_io.h"
+#include "robust/registration/presets.h"
+#include "robust/registration/registration.h"
+
+DEFINE_string(source, "", "The cloud to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(target, "", "The cloud to move it onto");
+DEFINE_string(preset,
+              "kitti",
+              "kitti (64 beams outdoors), paper or reference (as published), "
+              "indoor (16 beams), or auto (from the clouds themselves)");
+DEFINE_string(method,
+              "quatro",
+              "How to solve; --list_methods says what there is");
+DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_string(recover,
+              "",
+              "Translation again over all matches: on or off; empty: the "
+              "preset's");
+DEFINE_string(polish,
+              "",
+              "Roll and pitch on the inliers: on or off; empty: the preset's");
+DEFINE_string(refine,
+              "none",
+              "Local registration from the pose found: none, icp, gicp or "
+              "vgicp");
+DEFINE_string(ins_mode,
+              "none",
+              "Roll and pitch from an INS: none, relative, leveled or fused");
+DEFINE_string(source_rpy_deg,
+              "",
+              "The INS' roll,pitch,yaw of the source [deg]; x ahead, z up");
+DEFINE_string(target_rpy_deg, "", "The same of the target [deg]");
+DEFINE_double(ins_std_deg,
+              0.5,
+              "Standard deviation of each roll and pitch [deg], for fused");
+DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
+DEFINE_bool(crosscheck,
+            false,
+            "Solve every weighted subproblem by Ceres too and report the "
+            "largest difference");
+DEFINE_double(voxel_size, 0.0, "Of the sampling [m]; 0: the preset's");
+DEFINE_double(normal_radius, 0.0, "Of the normals [m]; 0: the preset's");
+DEFINE_double(fpfh_radius, 0.0, "Of the descriptors [m]; 0: the preset's");
+DEFINE_double(noise_bound,
+              0.0,
+              "How far a right match may be off [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Of all that is drawn at random");
+DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+DEFINE_string(json, "", "File for the answer; empty: standard output");
+DEFINE_bool(explain,
+            false,
+            "Print what came of each stage in plain words, in place of the "
+            "JSON on standard output");
+DEFINE_string(picture, "", "PNG file for both clouds before and after");
+DEFINE_string(report,
+              "",
+              "HTML file for a page to look at: both clouds in 3D, and what "
+              "became of the matches stage by stage");
+DEFINE_string(correspondences_out,
+              "",
+              "CSV file for the matches, as quatro_solve reads them");
+
+namespace {
+
+std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
+  return quatro::ParseInsFlags({FLAGS_ins_mode,
+                                FLAGS_source_rpy_deg,
+                                FLAGS_target_rpy_deg,
+                                FLAGS_ins_std_deg,
+                                FLAGS_gravity},
+                               error);
+}
+
+// The report's header: what the answer depends on.
+quatro::Manifest ManifestOf(const quatro::Json& report) {
+  quatro::Manifest manifest = quatro::BeginManifest();
+  manifest.seed = FLAGS_seed;
+  manifest.flags["method"] = FLAGS_method;
+  for (const auto& [name, value] : report["parameters"].items()) {
+    manifest.flags[name] =
+        value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  return manifest;
+}
+
+// "a.bin onto b.bin"
+std::string PairName() {
+  return std::filesystem::path(FLAGS_source).filename().string() + " onto " +
+         std::filesystem::path(FLAGS_target).filename().string();
+}
+
+constexpr char kUsage[] =
+    "finds the pose between two scans of one place, far apart or not.\n"
+    "\n"
+    "  quatro_register --source=a.bin --target=b.bin --picture=ab.png\n"
+    "\n"
+    "The answer is JSON; target_from_source moves points of the source onto "
+    "the\n"
+    "target. Progress goes to standard error.\n"
+    "Exits with 0 if registered; 1 if an answer can't be vouched for (the "
+    "JSON\n"
+    "says why); 2 if a flag or a file is wrong (nothing is written then).";
+
+// The options that the flags ask for, but for those that --preset=auto takes
+// from the clouds.
+std::optional<quatro::RegistrationOptions> OptionsFromFlags(
+    const quatro::PointCloud& source,
+    const quatro::PointCloud& target,
+    const quatro::InsOptions& ins,
+    std::string* error) {
+  auto options = FLAGS_preset == "auto"
+                     ? quatro::MakeAutoOptions(source, target)
+                     : quatro::MakePreset(FLAGS_preset);
+  if (!options) {
+    *error = "--preset=" + FLAGS_preset + ", must be auto";
+    for (const std::string& name : quatro::PresetNames()) *error += ", " + name;
+    return std::nullopt;
+  }
+  const auto override_with = [](double flag, double* value) {
+    if (flag != 0.0) *value = flag;
+  };
+  override_with(FLAGS_voxel_size, &options->front_end.voxel_size);
+  override_with(FLAGS_normal_radius, &options->front_end.normal_radius);
+  override_with(FLAGS_fpfh_radius, &options->front_end.fpfh_radius);
+  override_with(FLAGS_noise_bound, &options->quatro.noise_bound);
+  options->seed = FLAGS_seed;
+  options->num_threads = FLAGS_threads;
+  options->quatro.seed = FLAGS_seed;
+  options->quatro.num_threads = FLAGS_threads;
+  options->quatro.crosscheck = FLAGS_crosscheck;
+  if (!quatro::ApplySwitch("recover",
+                           FLAGS_recover,
+                           &options->quatro.recover_translation,
+                           error) ||
+      !quatro::ApplySwitch(
+          "polish", FLAGS_polish, &options->quatro.polish, error)) {
+    return std::nullopt;
+  }
+  if (!quatro::ParseRefinement(
+          FLAGS_refine, &options->refinement.method, error)) {
+    return std::nullopt;
+  }
+  if (!options->IsValid(error)) return std::nullopt;
+  options->ins = ins;
+  if (quatro::FindCloudSolver(FLAGS_method)) {
+    const char* unused = nullptr;
+    if (FLAGS_refine != "none") unused = "refine";
+    if (ins.up != Eigen::Vector3d::UnitZ()) unused = "gravity";
+    if (ins.mode != quatro::InsMode::kNone) unused = "ins_mode";
+    if (unused == nullptr) return options;
+    *error = std::string("--") + unused +
+             " does not go with --method=" + FLAGS_method;
+    return std::nullopt;
+  }
+  options->solver =
+      quatro::MakeLevelSolver(FLAGS_method, options->quatro, ins, error);
+  if (!options->solver) return std::nullopt;
+  return options;
+}
+
+int Main(int argc, char** argv) {
+  using quatro::Fail;
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, "register_main", argc, argv)) {
+    return *exit_code;
+  }
+  if (FLAGS_list_methods) {
+    std::fputs(quatro::DescribeMethods().c_str(), stdout);
+    return quatro::kExitDone;
+  }
+  std::string error;
+  if (FLAGS_source.empty()) return Fail("--source is empty, must name a cloud");
+  if (FLAGS_target.empty()) return Fail("--target is empty, must name a cloud");
+  // What can be found wrong at once is found before the work is done.
+  if (!quatro::CanWriteAll(
+          {FLAGS_json, FLAGS_picture, FLAGS_report, FLAGS_correspondences_out},
+          {FLAGS_source, FLAGS_target},
+          &error)) {
+    return Fail(error);
+  }
+  if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
+    return Fail(error);
+  }
+  std::optional<std::string> report_template;
+  if (!FLAGS_report.empty()) {
+    report_template = quatro::ReadReportTemplate(&error);
+    if (!report_template) return Fail("--report: " + error);
+  }
+  const auto ins = InsFromFlags(&error);
+  if (!ins) return Fail(error);
+  if (!OptionsFromFlags({}, {}, *ins, &error)) return Fail(error);
+
+  const auto source = quatro::ReadCloud(FLAGS_source, &error);
+  if (!source) return Fail(error);
+  const auto target = quatro::ReadCloud(FLAGS_target, &error);
+  if (!target) return Fail(error);
+  auto options = OptionsFromFlags(*source, *target, *ins, &error);
+  if (!options) return Fail(error);
+  options->progress = [](const quatro::StageTime& time) {
+    std::fprintf(
+        stderr, "%-12s %9.1f ms\n", time.stage.c_str(), time.seconds * 1e3);
+  };
+
+  const quatro::CloudSolver cloud_solver =
+      quatro::FindCloudSolver(FLAGS_method);
+  const quatro::RegistrationSummary summary =
+      cloud_solver ? cloud_solver(*source, *target, quatro::Rigid3(), *options)
+                   : quatro::Register(*source, *target, *options);
+  if (!summary.error.empty()) return Fail(summary.error);
+
+  quatro::Json report = quatro::MakeReport(FLAGS_method,
+                                           summary.verdict,
+                                           summary.solution,
+                                           summary.stage_times,
+                                           summary.total_seconds);
+  report["counts"].update(
+      quatro::Json{{"source_points", source->points.cols()},
+                   {"source_dropped", source->num_dropped},
+                   {"source_voxels", summary.num_source_voxels},
+                   {"target_points", target->points.cols()},
+                   {"target_dropped", target->num_dropped},
+                   {"target_voxels", summary.num_target_voxels}});
+  if (!cloud_solver) {
+    report["counts"]["mutual_matches"] = summary.num_mutual_matches;
+  }
+  report["structure_hold"] = quatro::Describe(summary.structure_hold);
+  report["refinement"] = quatro::DescribeRefinement(summary.refinement);
+  report["parameters"] = {{"source", FLAGS_source},
+                          {"target", FLAGS_target},
+                          {"preset", FLAGS_preset}};
+  report["parameters"].update(quatro::DescribeOptions(options->front_end));
+  report["parameters"].update(quatro::DescribeOptions(options->quatro));
+  report["parameters"].update(quatro::DescribeOptions(*ins));
+  report["version"] = quatro::Version();
+  std::fprintf(stderr,
+               "%-12s %9.1f ms\n%s: %s\n",
+               "total",
+               summary.total_seconds * 1e3,
+               quatro::StatusName(summary.verdict.status),
+               summary.verdict.reason.c_str());
+
+  std::vector<quatro::OutputFile> files;
+  if (!FLAGS_correspondences_out.empty()) {
+    files.push_back({FLAGS_correspondences_out,
+                     quatro::FormatMatches(summary.matched_source,
+                                           summary.matched_target)});
+  }
+  if (!FLAGS_picture.empty()) {
+    const auto picture = quatro::DrawRegistration(
+        {source->points,
+         target->points,
+         summary.matched_source,
+         summary.matched_target,
+         summary.solution.translation_inliers,
+         summary.target_from_source(),
+         std::string(quatro::StatusName(summary.verdict.status)) + ": " +
+             summary.verdict.reason},
+        &error);
+    if (!picture) return Fail(error);
+    files.push_back({FLAGS_picture, *picture});
+  }
+  if (report_template) {
+    files.push_back({FLAGS_report,
+                     quatro::FormatPairReport({PairName(),
+                                               FLAGS_source,
+                                               FLAGS_target,
+                                               source->points,
+                                               target->points,
+                                               std::nullopt,
+                                               options->quatro.noise_bound},
+                                              options->front_end.voxel_size,
+                                              {FLAGS_method, summary},
+                                              ManifestOf(report),
+                                              *report_template)});
+  }
+  if (!FLAGS_explain || !FLAGS_json.empty()) {
+    files.push_back({FLAGS_json, report.dump(2) + "\n"});
+  }
+  if (FLAGS_explain) files.push_back({"", quatro::Explain(report)});
+  if (!quatro::WriteOutputs(files, &error)) return Fail(error);
+  return summary.verdict.IsRegistered() ? quatro::kExitDone
+                                        : quatro::kExitNotVouchedFor;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "experiments/base/outputs.h"
+#include "experiments/pose_graphs/g2o.h"
+#include "experiments/pose_graphs/pose_graph_problem.h"
+#include "experiments/pose_graphs/scan_graph.h"
+#include "experiments/programs/program.h"
+#include "experiments/programs/progress_line.h"
+#include "features/io/cloud_io.h"
+#include "robust/registration/presets.h"
+
+DEFINE_string(scans,
+              "",
+              "Clouds in the order they were taken: a.bin,b.bin,...");
+DEFINE_string(odometry,
+              "",
+              "g2o file in space with a pose for each scan and edges between "
+              "those that follow each other, which are taken as right");
+DEFINE_string(preset, "kitti", "kitti, paper, reference or indoor");
+DEFINE_string(loss, "gnc", "About loops: gnc, none, huber, cauchy or tukey");
+DEFINE_double(loop_sigma_m, 0.1, "Noise of a right loop on each axis [m]");
+DEFINE_double(loop_sigma_deg, 0.5, "The same about each axis [deg]");
+DEFINE_double(inlier_probability,
+              0.999999,
+              "Share of right loops that the bound lets by");
+DEFINE_uint64(seed, 0, "Of all that is drawn at random");
+DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+DEFINE_string(output, "", "g2o file for poses, odometry and all loops");
+
+namespace {
+
+using quatro::Fail;
+
+constexpr char kUsage[] =
+    "registers every two of many scans and finds the poses that most agree.\n"
+    "\n"
+    "  quatro_scan_graph --scans=0.bin,1.bin,2.bin --odometry=odometry.g2o\n"
+    "\n"
+    "Prints a line a loop, from,to,status,weight, and what was done. Exits "
+    "with\n"
+    "0; 1 if there is no answer; 2 if a flag or a file is wrong.";
+
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+int Main(int argc, char** argv) {
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, "scan_graph_main", argc, argv)) {
+    return *exit_code;
+  }
+  std::string error;
+  const std::vector<std::string> paths = SplitAtCommas(FLAGS_scans);
+  if (paths.size() < 3) return Fail("--scans must name three clouds or more");
+  if (FLAGS_odometry.empty()) return Fail("--odometry is empty");
+  auto registration = quatro::MakePreset(FLAGS_preset);
+  if (!registration) return Fail("--preset=" + FLAGS_preset + " is not known");
+  registration->seed = FLAGS_seed;
+  registration->num_threads = FLAGS_threads;
+  if (!registration->IsValid(&error)) return Fail(error);
+  quatro::PoseGraphOptions options;
+  const auto loss = quatro::ParseLoopLoss(FLAGS_loss);
+  if (!loss) {
+    return Fail("--loss=" + FLAGS_loss +
+                ", must be gnc, none, huber, cauchy or tukey");
+  }
+  options.loss = *loss;
+  options.inlier_probability = FLAGS_inlier_probability;
+  if (!(FLAGS_inlier_probability > 0.0 && FLAGS_inlier_probability < 1.0)) {
+    return Fail("--inlier_probability must be > 0 and < 1");
+  }
+  if (!(FLAGS_loop_sigma_m >= quatro::kMinSigma &&
+        FLAGS_loop_sigma_m <= quatro::kMaxSigmaM)) {
+    return Fail("--loop_sigma_m must be 1e-6 to 1e6");
+  }
+  if (!(FLAGS_loop_sigma_deg >= quatro::kMinSigma &&
+        FLAGS_loop_sigma_deg <= quatro::kMaxSigmaDeg)) {
+    return Fail("--loop_sigma_deg must be 1e-6 to 180");
+  }
+  std::vector<std::string> inputs = paths;
+  inputs.push_back(FLAGS_odometry);
+  if (!quatro::CanWriteAll({FLAGS_output}, inputs, &error)) return Fail(error);
+
+  auto graph = quatro::ReadG2o(FLAGS_odometry, &error);
+  if (!graph) return Fail(error);
+  if (graph->dimension != 3 || graph->ids.size() != paths.size()) {
+    return Fail(FLAGS_odometry + ": must have a pose in space for each of " +
+                std::to_string(paths.size()) + " scans");
+  }
+  std::vector<bool> is_reached(paths.size());
+  for (const quatro::PoseEdge& edge : graph->edges) {
+    if (!edge.IsOdometry()) {
+      return Fail(FLAGS_odometry + ": has an edge that is no odometry");
+    }
+    is_reached[edge.to] = true;
+  }
+  for (std::size_t i = 1; i < is_reached.size(); ++i) {
+    if (is_reached[i]) continue;
+    return Fail(FLAGS_odometry + ": must have an edge from pose " +
+                std::to_string(graph->ids[i - 1]) + " to pose " +
+                std::to_string(graph->ids[i]) + ", which follows it");
+  }
+  std::vector<quatro::PointCloud> scans;
+  for (const std::string& path : paths) {
+    auto scan = quatro::ReadCloud(path, &error);
+    if (!scan) return Fail(error);
+    scans.push_back(std::move(*scan));
+  }
+
+  const auto pairs = quatro::RegisterPairs(
+      scans, *registration, quatro::ProgressLine("pairs"));
+  const std::size_t num_odometry = graph->edges.size();
+  quatro::AddLoops(pairs,
+                   quatro::DiagonalInformation(
+                       FLAGS_loop_sigma_m, FLAGS_loop_sigma_deg * M_PI / 180.0),
+                   &*graph);
+  const auto summary = quatro::SolvePoseGraph(options, &*graph);
+  std::size_t edge = num_odometry;
+  for (const quatro::ScanPair& pair : pairs) {
+    const std::string weight =
+        pair.from_from_to ? std::to_string(summary.weights[edge++]) : "none";
+    std::printf("%s,%s,%s,%s\n",
+                paths[pair.from].c_str(),
+                paths[pair.to].c_str(),
+                quatro::StatusName(pair.verdict.status),
+                weight.c_str());
+  }
+  std::printf("%s\n", summary.report.c_str());
+  if (!summary.is_usable) return quatro::kExitNotVouchedFor;
+  if (!FLAGS_output.empty() &&
+      !quatro::WriteOutputs({{FLAGS_output, quatro::FormatG2o(*graph)}},
+                            &error)) {
+    return Fail(error);
+  }
+  return quatro::kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

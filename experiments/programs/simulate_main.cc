@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/base/number_text.h"
+#include "experiments/programs/program.h"
+#include "experiments/programs/progress_line.h"
+#include "experiments/runner/stop_signal.h"
+#include "experiments/simulator/drives.h"
+#include "experiments/simulator/pair_files.h"
+#include "experiments/simulator/pair_sets.h"
+#include "experiments/simulator/simulator.h"
+#include "experiments/simulator/worlds.h"
+
+DEFINE_string(output, "", "Folder to write; its parents are created. Required");
+DEFINE_uint64(seed, 1, "Of the street and the noise; same seed, same files");
+DEFINE_int32(num_frames,
+             100,
+             "Scans to write; of a drive, 0: to the end of its way");
+DEFINE_double(frame_spacing, 1.0, "From one scan to the next [m]");
+DEFINE_double(slope_deg, 0.0, "Climb of the street [deg]");
+DEFINE_double(tilt_sigma_deg,
+              0.3,
+              "Standard deviation of the car's roll and pitch on its springs "
+              "[deg]");
+DEFINE_int32(threads, 0, "0: one per core. The files don't depend on it");
+DEFINE_string(
+    protocol,
+    "sequence",
+    "sequence: along one street; drive: through a city or a building, "
+    "see --drive; pairs: independent pairs of scans, each in "
+    "a world of its own; calibration: 1500 pairs of all worlds, half "
+    "of them without common ground");
+DEFINE_string(world,
+              "street",
+              "Of pairs: street, crossing, hill, corridor, hall or symmetric");
+DEFINE_string(drive,
+              "00",
+              "Of drives: 00, 02, 05, 06, 07, 08 (after KITTI's, in cities) or "
+              "hd_b1 (in a building)");
+DEFINE_bool(sweep_motion,
+            false,
+            "Of drives: points as the moving sensor saw them, not corrected");
+DEFINE_string(layout,
+              "kitti",
+              "Of drives: kitti (velodyne/, poses.txt, oxts/) or naver "
+              "(sensors/, as NAVER LABS' data sets are)");
+DEFINE_int32(moving_cars, 15, "Of drives: other cars on the way");
+DEFINE_int32(pairs, 100, "Of pairs: how many");
+DEFINE_double(scale, 1.0, "Of calibration: that share of its 1500 pairs");
+DEFINE_double(min_distance, 0.0, "Of pairs: at least so far apart [m]");
+DEFINE_double(max_distance, 30.0, "Of pairs: at most so far apart [m]");
+DEFINE_double(max_yaw_deg, 180.0, "Of pairs: largest turn, either way [deg]");
+DEFINE_double(min_tilt_deg, 2.0, "Of pairs on hills: least tilt [deg]");
+DEFINE_double(max_tilt_deg, 15.0, "Of pairs on hills: largest tilt [deg]");
+DEFINE_bool(
+    no_overlap,
+    false,
+    "Of pairs: scans with nothing in common, of worlds that look alike");
+DEFINE_int32(features,
+             -1,
+             "Of pairs in corridors: doors, niches, passages and the like; "
+             "negative: by the seed");
+DEFINE_string(
+    sensor,
+    "auto",
+    "Of pairs and drives: hdl64e, vlp16 or os1_64; auto: that of such places");
+DEFINE_double(ins_std_deg,
+              0.5,
+              "Of pairs: standard deviation of each angle of the INS [deg]");
+DEFINE_double(ins_noise_deg,
+              0.05,
+              "Of drives: the part of the INS' error that changes each frame, "
+              "standard deviation [deg]");
+DEFINE_double(ins_bias_deg,
+              0.3,
+              "Of drives: the part that does not, standard deviation [deg]");
+DEFINE_bool(overwrite, false, "Replace the sequence that --output holds");
+
+namespace {
+
+constexpr char kUsage[] =
+    "simulates lidar scans and their true poses.\n"
+    "\n"
+    "  quatro_simulate --output=street --num_frames=50 --slope_deg=5\n"
+    "\n"
+    "A car drives along a street with a Velodyne HDL-64E. Writes the layout "
+    "of\n"
+    "KITTI odometry:\n"
+    "        velodyne/000000.bin ...  float32 x y z intensity\n"
+    "        poses.txt calib.txt times.txt\n"
+    "Points of frame i are moved into frame j by Tr^-1 P_j^-1 P_i Tr.\n"
+    "\n"
+    "  quatro_simulate --output=05 --protocol=drive --drive=05 --num_frames=0\n"
+    "\n"
+    "The same layout, and the INS in oxts/data/0000000000.txt ... as KITTI "
+    "raw;\n"
+    "with --layout=naver that of NAVER LABS' data sets, in sensors/.\n"
+    "\n"
+    "  quatro_simulate --output=halls --protocol=pairs --world=hall "
+    "--pairs=50\n"
+    "  quatro_simulate --output=calibration --protocol=calibration "
+    "--scale=0.1\n"
+    "\n"
+    "Pairs of scans, each in a world of its own. Writes\n"
+    "        <set>/000000_source.bin <set>/000000_target.bin ...\n"
+    "        pairs.csv, pairs_negative.csv (of --no_overlap) for run_pairs.py\n"
+    "Called again, it makes the pairs that are missing.\n"
+    "\n"
+    "Exits with 0 if all was written, 2 if a flag is wrong or a file can't be\n"
+    "written; 3 if a sequence was stopped. Its folder is then as it was "
+    "before.";
+
+constexpr double kDegree = M_PI / 180.0;
+
+constexpr std::string_view kProtocols = "sequence, drive, pairs, calibration";
+
+struct FlagUse {
+  const char* name;
+  std::string_view protocols;
+};
+
+constexpr FlagUse kFlagUses[] = {{"num_frames", "sequence, drive"},
+                                 {"frame_spacing", "sequence, drive"},
+                                 {"overwrite", "sequence, drive"},
+                                 {"slope_deg", "sequence"},
+                                 {"tilt_sigma_deg", "sequence, drive, pairs"},
+                                 {"drive", "drive"},
+                                 {"sweep_motion", "drive"},
+                                 {"layout", "drive"},
+                                 {"moving_cars", "drive"},
+                                 {"ins_noise_deg", "drive"},
+                                 {"ins_bias_deg", "drive"},
+                                 {"sensor", "drive, pairs"},
+                                 {"world", "pairs"},
+                                 {"pairs", "pairs"},
+                                 {"min_distance", "pairs"},
+                                 {"max_distance", "pairs"},
+                                 {"max_yaw_deg", "pairs"},
+                                 {"min_tilt_deg", "pairs"},
+                                 {"max_tilt_deg", "pairs"},
+                                 {"no_overlap", "pairs"},
+                                 {"features", "pairs"},
+                                 {"ins_std_deg", "pairs"},
+                                 {"scale", "calibration"}};
+
+bool Names(std::string_view list, std::string_view name) {
+  const auto names = quatro::SplitFields(list, ", ");
+  return std::ranges::find(names, name) != names.end();
+}
+
+// Whether the protocol is known and takes every flag that was given.
+bool IsProtocolValid(std::string* error) {
+  if (!Names(kProtocols, FLAGS_protocol)) {
+    *error = "--protocol=" + FLAGS_protocol + ", must be one of " +
+             std::string(kProtocols);
+    return false;
+  }
+  for (const auto& [name, protocols] : kFlagUses) {
+    if (gflags::GetCommandLineFlagInfoOrDie(name).is_default ||
+        Names(protocols, FLAGS_protocol)) {
+      continue;
+    }
+    *error = std::string("--") + name +
+             " does not go with --protocol=" + FLAGS_protocol +
+             ", only with: " + std::string(protocols);
+    return false;
+  }
+  return true;
+}
+
+// Of a sequence that was not written to its end.
+int FailOrStop(const std::string& error) {
+  if (!quatro::WasAskedToStop()) return quatro::Fail(error);
+  quatro::EndProgressLine();
+  std::fprintf(stderr, "stopped; nothing is left of it\n");
+  return quatro::kExitStopped;
+}
+
+std::optional<quatro::PairSetOptions> SetOfFlags() {
+  const auto world = quatro::WorldByName(FLAGS_world);
+  if (!world) return std::nullopt;
+  quatro::PairSetOptions set;
+  set.world = *world;
+  set.num_pairs = FLAGS_pairs;
+  set.seed = FLAGS_seed;
+  set.min_distance = FLAGS_min_distance;
+  set.max_distance = FLAGS_max_distance;
+  set.max_yaw = FLAGS_max_yaw_deg * kDegree;
+  set.min_tilt = FLAGS_min_tilt_deg * kDegree;
+  set.max_tilt = FLAGS_max_tilt_deg * kDegree;
+  set.no_overlap = FLAGS_no_overlap;
+  set.num_features = FLAGS_features;
+  set.sensor = FLAGS_sensor;
+  set.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
+  set.ins_sigma = FLAGS_ins_std_deg * kDegree;
+  return set;
+}
+
+int WriteDrive() {
+  quatro::DriveOptions options;
+  options.name = FLAGS_drive;
+  options.seed = FLAGS_seed;
+  options.num_frames = FLAGS_num_frames;
+  options.frame_spacing = FLAGS_frame_spacing;
+  options.sensor = FLAGS_sensor;
+  options.has_sweep_motion = FLAGS_sweep_motion;
+  options.num_moving_cars = FLAGS_moving_cars;
+  options.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
+  options.ins_sigma = FLAGS_ins_noise_deg * kDegree;
+  options.ins_bias_sigma = FLAGS_ins_bias_deg * kDegree;
+  options.layout = FLAGS_layout;
+  options.num_threads = FLAGS_threads;
+  options.overwrite = FLAGS_overwrite;
+  std::string error;
+  if (!quatro::SimulateDrive(
+          options, FLAGS_output, quatro::ProgressLine("scans"), &error)) {
+    return FailOrStop(error);
+  }
+  return 0;
+}
+
+int WriteSets(const std::vector<quatro::PairSetOptions>& sets) {
+  std::string error;
+  if (!quatro::WritePairSets(sets,
+                             FLAGS_output,
+                             FLAGS_threads,
+                             quatro::ProgressLine("pairs"),
+                             &error)) {
+    return quatro::Fail(error);
+  }
+  return 0;
+}
+
+int Main(int argc, char** argv) {
+  using quatro::Fail;
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, "simulate_main", argc, argv)) {
+    return *exit_code;
+  }
+  if (FLAGS_output.empty())
+    return Fail("--output is empty, must name a folder");
+  std::string error;
+  if (!IsProtocolValid(&error)) return Fail(error);
+  if (FLAGS_protocol == "pairs") {
+    const auto set = SetOfFlags();
+    if (!set)
+      return Fail("--world=" + FLAGS_world + ": there is no such world");
+    return WriteSets({*set});
+  }
+  if (FLAGS_protocol == "calibration") {
+    if (!(FLAGS_scale > 0.0 && FLAGS_scale <= 100.0)) {
+      return Fail("--scale must be in (0, 100]");
+    }
+    return WriteSets(quatro::CalibrationSets(FLAGS_seed, FLAGS_scale));
+  }
+  quatro::ListenForStop();
+  if (FLAGS_protocol == "drive") return WriteDrive();
+
+  quatro::SimulateSequenceOptions options;
+  options.seed = FLAGS_seed;
+  options.num_frames = FLAGS_num_frames;
+  options.frame_spacing = FLAGS_frame_spacing;
+  options.slope = FLAGS_slope_deg * kDegree;
+  options.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
+  options.num_threads = FLAGS_threads;
+  options.overwrite = FLAGS_overwrite;
+  if (!quatro::SimulateSequence(
+          options, FLAGS_output, quatro::ProgressLine("scans"), &error)) {
+    return FailOrStop(error);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return quatro::RunProgram(Main, argc, argv); }

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// One floor of a large building: corridors of different widths between blocks
+// of shops, and halls where a block is missing, with pillars, doors, shop
+// fronts, furniture and things along the walls.
+//
+// The corridors are a grid; z is up, and the floor is at 0.
+
+#ifndef QUATRO_EXPERIMENTS_SIMULATOR_BUILDING_H_
+#define QUATRO_EXPERIMENTS_SIMULATOR_BUILDING_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "experiments/simulator/scene.h"
+
+namespace quatro {
+
+class Building {
+ public:
+  // Corridors along y, by ascending x, and along x, by ascending y.
+  Building(uint64_t seed, int num_corridors_x, int num_corridors_y);
+
+  // Of the corridors' axes [m].
+  Eigen::Vector2d Crossing(int i, int j) const;
+
+  // Nothing stands within 1 m of the corridors' axes.
+  Scene MakeScene() const;
+
+ private:
+  struct Corridor {
+    double axis, half_width;  // [m]
+  };
+
+  void AddBlock(const Eigen::Vector2d& lower,
+                const Eigen::Vector2d& upper,
+                Random& random,
+                Scene& scene) const;
+  void AddHall(const Eigen::Vector2d& lower,
+               const Eigen::Vector2d& upper,
+               Random& random,
+               Scene& scene) const;
+
+  uint64_t seed_;
+  double height_;
+  std::vector<Corridor> xs_, ys_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_SIMULATOR_BUILDING_H_

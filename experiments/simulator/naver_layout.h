@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A drive on disk as NAVER LABS' indoor data sets are (kapture 1.1), with one
+// lidar:
+//
+//   sensors/sensors.txt                lidar0, , lidar
+//   sensors/records_lidar.txt          stamp, lidar0, lidar0/000000.pcd
+//   sensors/trajectories.txt           stamp, lidar0, qw, qx, qy, qz, tx, ty,
+//   tz sensors/records_ins.txt            stamp, ins0, roll, pitch, yaw
+//   sensors/records_data/lidar0/000000.pcd ...
+//
+// Poses are lidar from world, the inverse of ours. Stamps are microseconds,
+// angles radians. The INS is a record of a type of our own, which kapture lets
+// one add; NAVER LABS' have none.
+
+#ifndef QUATRO_EXPERIMENTS_SIMULATOR_NAVER_LAYOUT_H_
+#define QUATRO_EXPERIMENTS_SIMULATOR_NAVER_LAYOUT_H_
+
+#include <memory>
+#include <string>
+
+#include "experiments/simulator/sequence_folder.h"
+#include "experiments/simulator/sequence_writer.h"
+#include "features/base/rigid3.h"
+#include "features/io/point_cloud.h"
+
+namespace quatro {
+
+class NaverWriter : public SequenceWriter {
+ public:
+  // Returns a nullptr and sets *error if there can be no such folder.
+  static std::unique_ptr<NaverWriter> Create(const std::string& output_dir,
+                                             bool overwrite,
+                                             std::string* error);
+
+  bool Add(const PointCloud& cloud,
+           const Rigid3& world_from_sensor,
+           double time,
+           const InsReading* reading,
+           std::string* error) override;
+  bool Finish(std::string* error) override;
+
+ private:
+  NaverWriter() = default;
+
+  std::unique_ptr<SequenceFolder> folder_;
+  int num_frames_ = 0;
+  std::string records_, poses_, ins_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_SIMULATOR_NAVER_LAYOUT_H_

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The ground of a street and where a car stands on it.
+//
+// Places are (s, d): s metres along the axis, d to the left of it. With c(s)
+// the axis, n(s) its normal to the left and h the ground,
+//
+//   x_in_world = ( c(s) + d n(s), h(s, d) ),                              (1)
+//   h = s tan(slope) + curve(s, d) + waves(s, d) + profile(s, d).
+//
+// The axis curves gently, with a radius above 100 m. The profile has a crown,
+// kerbs (lowered in the mouths of side streets), pavements and gardens. Between
+// curve_begin and curve_end the grade, d h / d s, and the bank, d h / d d,
+// change evenly, so that the road there is a parabola, as roads are built.
+
+#ifndef QUATRO_EXPERIMENTS_SIMULATOR_ROAD_H_
+#define QUATRO_EXPERIMENTS_SIMULATOR_ROAD_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "experiments/simulator/street_axis.h"
+#include "features/base/rigid3.h"
+
+namespace quatro {
+
+struct RoadOptions {
+  uint64_t seed = 1;
+  double length = 250.0;     // [m]
+  double slope = 0.0;        // Climb of the axis [rad].
+  double undulation = 0.05;  // Amplitude of the waves that are 40 m long [m].
+  double half_width = 4.5;   // Of the carriageway with parked cars [m].
+
+  // A crest (climb < 0) or a sag: by how much the road climbs more [rad] past
+  // curve_end than before curve_begin [m], and how much more it falls to the
+  // right [rad].
+  double curve_begin = 0.0;
+  double curve_end = 1.0;
+  double curve_climb = 0.0;
+  double curve_bank = 0.0;
+
+  // Streets leave on both sides here [m], and none closer than 30 m; negative:
+  // wherever the seed has them.
+  double crossing = -1.0;
+
+  // Standard deviation of a car's roll and pitch on its springs [rad].
+  double tilt_sigma = 0.0052;
+
+  bool IsValid(std::string* error) const;
+};
+
+class Road final : public StreetAxis {
+ public:
+  static constexpr double kSensorHeight = 1.73;  // Above the ground [m].
+  static constexpr double kLane = -1.0;          // d of a car that drives [m].
+  static constexpr double kPavementWidth = 1.6;  // [m]
+
+  // `options` must be valid.
+  explicit Road(const RoadOptions& options);
+
+  const RoadOptions& options() const { return options_; }
+  double length() const override { return options_.length; }
+  double half_width() const override { return options_.half_width; }
+  const std::vector<SideStreet>& side_streets() const override {
+    return side_streets_;
+  }
+
+  double Heading(double s) const override;
+  Eigen::Vector3d SurfacePoint(double s, double d) const override;  // (1)
+
+  // Of a car that drives, `lateral` [m] to the left of its lane: origin in the
+  // sensor, axes as WorldFromGround but for the springs.
+  Rigid3 WorldFromSensor(double s, double lateral, double yaw) const;
+
+ private:
+  // amplitude sin(along_s s + along_d d + phase)
+  struct Wave {
+    double amplitude, along_s, along_d, phase;
+  };
+  using Waves = std::vector<Wave>;
+
+  static double Sum(const Waves& waves, double s, double d);
+  void AddCrossing();
+  double Curve(double s, double d) const;
+  double Height(double s, double d) const;
+
+  RoadOptions options_;
+  std::vector<SideStreet> side_streets_;
+  Waves heading_waves_, ground_waves_, roll_waves_, pitch_waves_;
+  double left_garden_slope_, right_garden_slope_;  // [m/m], outward.
+  std::vector<Eigen::Vector2d> axis_;              // c at even steps.
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_SIMULATOR_ROAD_H_

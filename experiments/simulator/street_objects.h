@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What stands on a street, one object a call, its details drawn at random.
+//
+// A frame has its origin on the ground and z up. What faces the street does so
+// with +y, and x runs along its front, which is centred on the origin. All
+// objects reach below the ground, which need not be level.
+
+#ifndef QUATRO_EXPERIMENTS_SIMULATOR_STREET_OBJECTS_H_
+#define QUATRO_EXPERIMENTS_SIMULATOR_STREET_OBJECTS_H_
+
+#include "experiments/simulator/scene.h"
+#include "features/base/random.h"
+#include "features/base/rigid3.h"
+
+namespace quatro {
+
+// A house of one to four storeys with windows, doors and the odd garage, bay
+// or balcony on its four sides; steps, a rain pipe and bins before it. [m]
+void AddHouse(const Rigid3& world_from_house,
+              double width,
+              double depth,
+              Random& random,
+              Scene& scene);
+
+void AddShed(const Rigid3& world_from_shed, Random& random, Scene& scene);
+
+void AddBush(const Rigid3& world_from_bush, Random& random, Scene& scene);
+
+void AddTree(const Rigid3& world_from_tree, Random& random, Scene& scene);
+
+// Drives along +x. [m]
+void AddCar(const Rigid3& world_from_car,
+            double length,
+            Random& random,
+            Scene& scene);
+
+// The edge of a garden, made of pieces that follow the ground.
+struct Border {
+  enum Kind { kNone, kWall, kPickets, kHedge };
+  Kind kind = kNone;
+  double height = 1.0;  // [m]
+  double piece = 0.8;   // Length of one piece [m].
+  float reflectance = 0.4f;
+};
+
+Border DrawBorder(Random& random);
+
+// The `index`-th piece, centred on the frame's origin.
+void AddBorderPiece(const Rigid3& world_from_piece,
+                    const Border& border,
+                    int index,
+                    Random& random,
+                    Scene& scene);
+
+}  // namespace quatro
+
+#endif  // QUATRO_EXPERIMENTS_SIMULATOR_STREET_OBJECTS_H_

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Randomness by counting: the k-th draw of a seed is a pure function of both,
+// so results depend on neither threads, nor order, nor the standard library.
+//
+// Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+// Generators", OOPSLA 2014 (SplitMix64).
+
+#ifndef QUATRO_FEATURES_BASE_RANDOM_H_
+#define QUATRO_FEATURES_BASE_RANDOM_H_
+
+#include <cstdint>
+
+namespace quatro {
+
+// One step of SplitMix64: scrambles 64 bits.
+inline std::uint64_t Mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// Numbers of a seed, one after another.
+class Random {
+ public:
+  // The same seed gives the same numbers.
+  explicit Random(std::uint64_t seed) : state_(Mix(seed)) {}
+
+  // The next 64 bits.
+  std::uint64_t Next() { return Mix(state_++); }
+
+  // As if so many had been drawn.
+  void Skip(std::uint64_t num_draws) { state_ += num_draws; }
+
+  // Uniform in [0, n), n >= 1. The bias is below n / 2^64.
+  std::uint64_t Below(std::uint64_t n) {
+    __extension__ using Wide = unsigned __int128;
+    return static_cast<std::uint64_t>((static_cast<Wide>(Next()) * n) >> 64);
+  }
+
+  // Uniform in [0, 1).
+  double Uniform() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_BASE_RANDOM_H_

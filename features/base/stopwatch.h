@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// How long each stage of a computation took.
+
+#ifndef QUATRO_FEATURES_BASE_STOPWATCH_H_
+#define QUATRO_FEATURES_BASE_STOPWATCH_H_
+
+#include <chrono>
+#include <string>
+
+namespace quatro {
+
+// A stage, and how long it took.
+struct StageTime {
+  std::string stage;
+  double seconds = 0.0;
+};
+
+// Laps on the steady clock.
+class Stopwatch {
+ public:
+  // The time since the last lap, or since the start.
+  double Lap() {
+    const auto now = Clock::now();
+    const std::chrono::duration<double> elapsed = now - last_;
+    last_ = now;
+    return elapsed.count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_BASE_STOPWATCH_H_

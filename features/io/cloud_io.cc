@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/io/cloud_io.h"
+
+#include <cstddef>
+#include <exception>
+#include <string_view>
+
+#include "features/base/file.h"
+#include "features/io/cloud_text.h"
+#include "features/io/kitti_bin.h"
+#include "features/io/pcd.h"
+#include "features/io/ply.h"
+
+namespace quatro {
+namespace {
+
+// In lower case and with its dot; empty if the file name has none.
+std::string Ending(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  const std::size_t dot = path.find_last_of('.');
+  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) {
+    return "";
+  }
+  std::string ending = path.substr(dot);
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending;
+}
+
+std::optional<PointCloud> Parse(std::string_view ending,
+                                std::string_view bytes,
+                                std::string* error) {
+  if (ending == ".bin") return ParseKittiBin(bytes, error);
+  if (ending == ".ply") return ParsePly(bytes, error);
+  return ParsePcd(bytes, error);
+}
+
+// What ReadCloud would not read back is not written.
+bool IsWritable(const PointCloud& cloud, std::string* error) {
+  if (cloud.points.cols() == 0) {
+    *error = "points: there are none";
+    return false;
+  }
+  if (!cloud.points.allFinite()) {
+    *error = "points: not all are finite";
+    return false;
+  }
+  if (cloud.intensity.size() != 0 &&
+      cloud.intensity.size() != cloud.points.cols()) {
+    *error = "intensity: " + std::to_string(cloud.intensity.size()) +
+             " numbers for " + std::to_string(cloud.points.cols()) + " points";
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<PointCloud> ReadCloud(const std::string& path,
+                                    std::string* error) {
+  const std::string ending = Ending(path);
+  if (ending != ".bin" && ending != ".ply" && ending != ".pcd") {
+    *error =
+        path + ": ending " + Quoted(ending) + ": is not .bin, .ply or .pcd";
+    return std::nullopt;
+  }
+  const std::optional<std::string> bytes = ReadWholeFile(path, error);
+  if (!bytes) return std::nullopt;
+  if (bytes->empty()) {
+    *error = path + ": is empty";
+    return std::nullopt;
+  }
+
+  std::string reason;
+  std::optional<PointCloud> cloud;
+  try {
+    cloud = Parse(ending, *bytes, &reason);
+  } catch (const std::exception&) {  // The standard library's and Eigen's.
+    reason = "points: do not fit in memory";
+  }
+  if (!cloud) *error = path + ": " + reason;
+  return cloud;
+}
+
+bool WriteCloud(const PointCloud& cloud,
+                const std::string& path,
+                std::string* error) {
+  const std::string ending = Ending(path);
+  if (ending != ".bin" && ending != ".ply" && ending != ".pcd") {
+    *error =
+        path + ": ending " + Quoted(ending) + ": is not .bin, .ply or .pcd";
+    return false;
+  }
+  std::string reason;
+  std::optional<std::string> bytes;
+  if (IsWritable(cloud, &reason)) {
+    bytes = ending == ".bin"   ? FormatKittiBin(cloud, &reason)
+            : ending == ".pcd" ? FormatPcd(cloud, &reason)
+                               : FormatPly(cloud);
+  }
+  if (!bytes) {
+    *error = path + ": " + reason;
+    return false;
+  }
+  return WriteFileAtomically(path, *bytes, error);
+}
+
+}  // namespace quatro

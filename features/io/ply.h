@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// PLY, ascii or binary of either byte order.
+//
+// A point is one row of the element "vertex" with scalar properties x, y, z of
+// any type, and optionally an intensity (see FindCloudColumns). All other
+// properties and elements are skipped.
+
+#ifndef QUATRO_FEATURES_IO_PLY_H_
+#define QUATRO_FEATURES_IO_PLY_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "features/io/point_cloud.h"
+
+namespace quatro {
+
+// Sets *error, without a path, if there is no cloud in `bytes`.
+std::optional<PointCloud> ParsePly(std::string_view bytes, std::string* error);
+
+// Binary little-endian: double x y z, float intensity if there is one.
+std::string FormatPly(const PointCloud& cloud);
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_IO_PLY_H_

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Every closed form of a run against its Ceres twin.
+//
+// CrossChecked<Subproblem> stands in for a subproblem of robust/gnc/gnc.h: it
+// gives the closed form's answers and keeps the largest difference from what
+// Ceres finds for the same weights on the manifold, started half a radian away.
+
+#ifndef QUATRO_ROBUST_ESTIMATORS_CROSSCHECK_H_
+#define QUATRO_ROBUST_ESTIMATORS_CROSSCHECK_H_
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <optional>
+
+#include "features/base/types.h"
+#include "robust/estimators/pose_summary.h"
+#include "robust/gnc/quasi_so3.h"
+#include "robust/gnc/so3.h"
+
+namespace quatro {
+
+constexpr double kCrosscheckStart = 0.5;  // Off the closed form [rad].
+
+// Largest difference between the closed form and Ceres [rad], infinite if Ceres
+// gives no answer.
+double CrosscheckDifference(const QuasiSo3& subproblem,
+                            const WeightsRef& weights,
+                            const YawEstimate& closed_form);
+double CrosscheckDifference(const So3& subproblem,
+                            const WeightsRef& weights,
+                            const RotationEstimate& closed_form);
+
+// A subproblem that solves everything twice and keeps the largest difference.
+template <typename Subproblem>
+class CrossChecked {
+ public:
+  using Estimate = typename Subproblem::Estimate;
+
+  // `subproblem` must outlive this.
+  explicit CrossChecked(const Subproblem& subproblem)
+      : subproblem_(subproblem) {}
+
+  Eigen::Index NumMeasurements() const { return subproblem_.NumMeasurements(); }
+  Estimate Identity() const { return subproblem_.Identity(); }
+  Eigen::VectorXd SquaredResiduals(const Estimate& estimate) const {
+    return subproblem_.SquaredResiduals(estimate);
+  }
+  std::optional<Estimate> Solve(const WeightsRef& weights) const {
+    std::optional<Estimate> estimate = subproblem_.Solve(weights);
+    if (estimate) {
+      ++report_.num_subproblems;
+      report_.max_rotation_difference =
+          std::max(report_.max_rotation_difference,
+                   CrosscheckDifference(subproblem_, weights, *estimate));
+    }
+    return estimate;
+  }
+
+  // Of all that was solved so far.
+  const CrosscheckReport& report() const { return report_; }
+
+ private:
+  const Subproblem& subproblem_;
+  mutable CrosscheckReport report_;
+};
+
+// Yaw and translation jointly, and the whole pose where the matches hold it, on
+// the given inliers; adds to *report.
+void CrosscheckPose(const PointsRef& source,
+                    const PointsRef& target,
+                    std::optional<CrosscheckReport>* report);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_ESTIMATORS_CROSSCHECK_H_

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/estimators/fgr.h"
+
+#include <glog/logging.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "features/base/parallel.h"
+#include "robust/estimators/distinct_matches.h"
+#include "robust/estimators/rotation_observability.h"
+#include "robust/gnc/surrogate.h"
+#include "solvers/closed_form/rotation.h"
+#include "solvers/closed_form/valid_matches.h"
+
+namespace quatro {
+namespace {
+
+constexpr int kNumNeeded = 3;
+
+// Matches summed up by one thread; the sums of pieces are added in order.
+constexpr Eigen::Index kPiece = 4096;
+
+// What (3) has of the matches, x = T p, e = q - x.
+struct Moments {
+  double l = 0.0;
+  Eigen::Vector3d lx = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d lxx = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d le = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lxe = Eigen::Vector3d::Zero();  // x cross e
+  double loss = 0.0;
+
+  void Add(const Moments& other) {
+    l += other.l;
+    lx += other.lx;
+    lxx += other.lxx;
+    le += other.le;
+    lxe += other.lxe;
+    loss += other.loss;
+  }
+};
+
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d cross;
+  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return cross;
+}
+
+}  // namespace
+
+bool FgrOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
+    problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
+  } else if (!(start_scale > 0.0 && std::isfinite(start_scale))) {
+    problem << "start_scale = " << start_scale << ", must be > 0 and finite";
+  } else if (!(mu_step > 1.0 && std::isfinite(mu_step))) {
+    problem << "mu_step = " << mu_step << ", must be > 1 and finite";
+  } else if (iterations_per_mu < 1) {
+    problem << "iterations_per_mu = " << iterations_per_mu << ", must be >= 1";
+  } else if (max_iterations < 1) {
+    problem << "max_iterations = " << max_iterations << ", must be >= 1";
+  } else if (!(step_tolerance > 0.0)) {
+    problem << "step_tolerance = " << step_tolerance << ", must be > 0";
+  } else if (num_threads < 0) {
+    problem << "num_threads = " << num_threads << ", must be >= 0";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+FgrNormalEquations LinearizeFgr(const PointsRef& source,
+                                const PointsRef& target,
+                                const Rigid3& target_from_source,
+                                double mu,
+                                int num_threads) {
+  CHECK_EQ(source.cols(), target.cols());
+  const Eigen::Index n = source.cols();
+  std::vector<Moments> pieces(static_cast<std::size_t>(n / kPiece + 1));
+  ParallelFor(
+      num_threads, n, kPiece, [&](Eigen::Index begin, Eigen::Index end) {
+        Moments sums;
+        for (Eigen::Index i = begin; i < end; ++i) {
+          const Eigen::Vector3d x =
+              target_from_source * Eigen::Vector3d(source.col(i));
+          const Eigen::Vector3d e = target.col(i) - x;
+          const double r2 = e.squaredNorm();
+          const double l = GemanMcClure::Weight(r2, mu);  // Equation (2).
+          const Eigen::Vector3d lx = l * x;
+          const Eigen::Vector3d le = l * e;
+          sums.l += l;
+          sums.lx += lx;
+          sums.lxx += lx * x.transpose();
+          sums.le += le;
+          sums.lxe += x.cross(le);
+          sums.loss += GemanMcClure::Loss(r2, mu);  // Equation (1).
+        }
+        pieces[static_cast<std::size_t>(begin / kPiece)] = sums;
+      });
+  Moments sums;
+  for (const Moments& piece : pieces) sums.Add(piece);
+
+  FgrNormalEquations equations;
+  equations.A.topLeftCorner<3, 3>() =
+      sums.lxx.trace() * Eigen::Matrix3d::Identity() - sums.lxx;
+  equations.A.topRightCorner<3, 3>() = CrossMatrix(sums.lx);
+  equations.A.bottomLeftCorner<3, 3>() = -CrossMatrix(sums.lx);
+  equations.A.bottomRightCorner<3, 3>() = sums.l * Eigen::Matrix3d::Identity();
+  equations.b << sums.lxe, sums.le;
+  equations.loss = sums.loss;
+  return equations;
+}
+
+Rigid3 ComposeLeft(const Eigen::Matrix<double, 6, 1>& xi,
+                   const Rigid3& target_from_source) {
+  const Eigen::Vector3d omega = xi.head<3>();
+  const double angle = omega.norm();
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  if (angle > 0.0) {
+    turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(omega / angle));
+  }
+  // By a quaternion, which stays a rotation over hundreds of steps.
+  const Eigen::Quaterniond rotation =
+      turn * Eigen::Quaterniond(target_from_source.rotation);
+  return {rotation.normalized().toRotationMatrix(),
+          turn * target_from_source.translation + xi.tail<3>()};
+}
+
+FgrSummary SolveFgr(const PointsRef& source,
+                    const PointsRef& target,
+                    const FgrOptions& options) {
+  FgrSummary summary;
+  summary.num_needed = kNumNeeded;
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
+    return summary;
+  }
+
+  Stopwatch stopwatch;
+  const DistinctMatches matches = FindDistinctMatches(source, target);
+  summary.num_distinct = matches.source.cols();
+  summary.termination = PoseTermination::kInsufficient;
+  if (summary.num_distinct < kNumNeeded) {
+    std::ostringstream message;
+    message << "a pose needs three matches, there are " << summary.num_distinct;
+    summary.message = message.str();
+    return summary;
+  }
+
+  // About the means and in units of D.
+  const Eigen::Vector3d source_mean = matches.source.rowwise().mean();
+  const Eigen::Vector3d target_mean = matches.target.rowwise().mean();
+  Points p = matches.source.colwise() - source_mean;
+  Points q = matches.target.colwise() - target_mean;
+  const double extent =
+      options.start_scale *
+      std::sqrt(std::max(p.colwise().squaredNorm().maxCoeff(),
+                         q.colwise().squaredNorm().maxCoeff()));
+  p /= extent;
+  q /= extent;
+  const double delta = options.noise_bound / extent;
+
+  Rigid3 pose;
+  if (options.start_at_plain_fit) {
+    const auto plain = EstimateRigid(p, q, Weights::Ones(p.cols()));
+    if (plain) pose = plain->target_from_source;
+  }
+  // In units of delta^2, where the surrogate ends at 1.
+  double mu = std::max(1.0, 1.0 / (delta * delta));
+  FgrNormalEquations equations;
+  while (summary.iterations < options.max_iterations &&
+         !summary.has_converged) {
+    const bool is_exact = GemanMcClure::IsExact(mu);
+    equations =
+        LinearizeFgr(p, q, pose, mu * delta * delta, options.num_threads);
+    const Eigen::Matrix<double, 6, 1> xi =
+        equations.A.completeOrthogonalDecomposition().solve(equations.b);
+    pose = ComposeLeft(xi, pose);
+    summary.last_step = xi.norm();
+    ++summary.iterations;
+    summary.has_converged =
+        is_exact && summary.last_step <= options.step_tolerance;
+    if (summary.iterations % options.iterations_per_mu == 0) {
+      mu = GemanMcClure::NextMu(mu, options.mu_step);
+    }
+  }
+  summary.mu = mu * options.noise_bound * options.noise_bound;
+  summary.cost = equations.loss * extent * extent;
+  const Rigid3 target_from_source{
+      pose.rotation,
+      extent * pose.translation + target_mean - pose.rotation * source_mean};
+
+  const double limit = delta * delta;
+  const Points errors = q - pose.Apply(p);
+  std::vector<Eigen::Index> inliers;
+  for (Eigen::Index i = 0; i < errors.cols(); ++i) {
+    if (errors.col(i).squaredNorm() <= limit) inliers.push_back(i);
+  }
+  summary.num_consistent = static_cast<Eigen::Index>(inliers.size());
+  summary.num_rotation_inliers = summary.num_consistent;
+  summary.consistent = InputColumns(matches, inliers);
+  summary.stage_times.push_back({"fgr", stopwatch.Lap()});
+  if (summary.num_consistent < kNumNeeded) {
+    std::ostringstream message;
+    message << "of " << summary.num_distinct << " matches "
+            << summary.num_consistent
+            << " agree with the pose found, three are needed";
+    summary.message = message.str();
+    return summary;
+  }
+  const auto rigid = EstimateRigid(Columns(matches.source, inliers),
+                                   Columns(matches.target, inliers),
+                                   Weights::Ones(summary.num_consistent));
+  if (!rigid || !HoldsRotation(*rigid, options.noise_bound)) {
+    summary.termination = PoseTermination::kDegenerate;
+    summary.message =
+        "the matches that agree hold no rotation: they are on one line";
+    return summary;
+  }
+  summary.num_translation_inliers = summary.num_consistent;
+  summary.translation_inliers = summary.consistent;
+  summary.target_from_source = target_from_source;
+  summary.termination = PoseTermination::kSolved;
+  summary.message =
+      summary.has_converged ? "solved" : "solved up to max_iterations";
+  return summary;
+}
+
+}  // namespace quatro

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/estimators/quatro.h"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "robust/estimators/consensus.h"
+#include "robust/estimators/crosscheck.h"
+#include "robust/estimators/distinct_matches.h"
+#include "robust/estimators/recovery.h"
+#include "robust/gnc/quasi_so3.h"
+#include "robust/gnc/surrogate.h"
+#include "solvers/closed_form/exact_yaw.h"
+#include "solvers/closed_form/translation.h"
+#include "solvers/closed_form/valid_matches.h"
+
+namespace quatro {
+namespace {
+
+constexpr int kNumNeeded = 2;
+
+PruningOptions PruningFrom(const QuatroOptions& options) {
+  PruningOptions pruning;
+  pruning.method = options.pruning;
+  pruning.time_limit_seconds = options.clique_time_limit_seconds;
+  pruning.consistency.test = options.consistency_test;
+  pruning.consistency.bound = 2.0 * options.noise_bound;
+  pruning.consistency.max_tilt = options.max_tilt;
+  return pruning;
+}
+
+PolishOptions PolishFrom(const QuatroOptions& options) {
+  PolishOptions polish;
+  polish.noise_bound = options.noise_bound;
+  polish.max_tilt = options.polish_max_tilt;
+  polish.max_rotation_std = options.polish_max_rotation_std;
+  return polish;
+}
+
+template <typename Subproblem>
+GncSummary<YawEstimate> SolveYaw(const Subproblem& subproblem,
+                                 const QuatroOptions& options) {
+  switch (options.surrogate) {
+    case SurrogateType::kGemanMcClure:
+      return SolveGnc<GemanMcClure>(subproblem, options.gnc);
+    case SurrogateType::kWelsch:
+      return SolveGnc<Welsch>(subproblem, options.gnc);
+    case SurrogateType::kTruncatedLeastSquares:
+      break;
+  }
+  return SolveGnc<TruncatedLeastSquares>(subproblem, options.gnc);
+}
+
+// Yaw by the way asked for, with the certificate. Nullopt if the TIMs hold
+// none.
+std::optional<double> FindYaw(const QuasiSo3& rotation,
+                              const QuatroOptions& options,
+                              QuatroSummary* summary) {
+  if (options.yaw_solver == YawSolver::kGnc) {
+    if (options.crosscheck) {
+      const CrossChecked<QuasiSo3> checked(rotation);
+      summary->gnc = SolveYaw(checked, options);
+      summary->crosscheck = checked.report();
+    } else {
+      summary->gnc = SolveYaw(rotation, options);
+    }
+  }
+  const Weights weights = Weights::Ones(rotation.NumMeasurements());
+  const Weights bounds =
+      Weights::Constant(weights.size(), rotation.noise_bound);
+  const auto exact =
+      EstimateExactYaw(rotation.source, rotation.target, weights, bounds);
+  const auto& gnc = summary->gnc.estimate;
+
+  std::optional<double> yaw;
+  if (gnc) yaw = gnc->target_from_source;
+  if (exact) {
+    YawCertificate certificate;
+    certificate.optimal_cost = exact->cost;
+    if (gnc) {
+      certificate.gnc_cost = TruncatedYawCost(
+          rotation.source, rotation.target, weights, bounds, *yaw);
+      certificate.gap = *certificate.gnc_cost - certificate.optimal_cost;
+    }
+    const bool misses =
+        !gnc || *certificate.gap > options.certificate_tolerance;
+    summary->certificate = certificate;
+    if (options.yaw_solver == YawSolver::kExact ||
+        (options.replace_missed_optimum && misses)) {
+      yaw = exact->target_from_source;
+      summary->is_yaw_exact = true;
+    }
+  }
+  if (yaw) {
+    YawEstimate estimate;
+    estimate.target_from_source = *yaw;
+    const auto is_inlier =
+        (rotation.SquaredResiduals(estimate).array() <= 1.0).eval();
+    summary->num_rotation_inliers = is_inlier.count();
+    // What is an inlier under any yaw holds none: a pole, noise and all.
+    const auto is_short = (rotation.source.topRows<2>().colwise().norm() +
+                           rotation.target.topRows<2>().colwise().norm())
+                              .transpose()
+                              .array() <= rotation.noise_bound;
+    if (is_inlier.any() && (!is_inlier || is_short).all()) return std::nullopt;
+  }
+  return yaw;
+}
+
+// Of each difference: that of GNC, or for the exact yaw whether it is an
+// inlier. Empty without an answer.
+Eigen::VectorXd TimWeights(const QuasiSo3& rotation,
+                           const QuatroSummary& summary,
+                           const std::optional<double>& yaw) {
+  if (!summary.is_yaw_exact) return summary.gnc.weights;
+  if (!yaw) return {};
+  YawEstimate estimate;
+  estimate.target_from_source = *yaw;
+  return (rotation.SquaredResiduals(estimate).array() <= 1.0).cast<double>();
+}
+
+std::string NoteMove(const Rigid3& before, const Rigid3& after) {
+  const double shift = (after.translation - before.translation).norm();
+  if (shift == 0.0) return "no other translation explains more";
+  std::ostringstream text;
+  text.precision(2);
+  text << "moved by " << shift << " m, which explains more of all matches";
+  return text.str();
+}
+
+}  // namespace
+
+bool QuatroOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
+    problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
+  } else if (!(tim_bound_factor > 0.0 && std::isfinite(tim_bound_factor))) {
+    problem << "tim_bound_factor = " << tim_bound_factor
+            << ", must be > 0 and finite";
+  } else if (num_random_tims < 1) {
+    problem << "num_random_tims = " << num_random_tims << ", must be >= 1";
+  } else if (!(certificate_tolerance >= 0.0)) {
+    problem << "certificate_tolerance = " << certificate_tolerance
+            << ", must be >= 0";
+  } else if (num_threads < 0) {
+    problem << "num_threads = " << num_threads << ", must be >= 0";
+  } else {
+    return PruningFrom(*this).IsValid(error) && gnc.IsValid(error) &&
+           PolishFrom(*this).IsValid(error);
+  }
+  *error = problem.str();
+  return false;
+}
+
+QuatroSummary SolveQuatro(const PointsRef& source,
+                          const PointsRef& target,
+                          const QuatroOptions& options) {
+  QuatroSummary summary;
+  summary.num_needed = kNumNeeded;
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
+    return summary;
+  }
+
+  const DistinctMatches matches = FindDistinctMatches(source, target);
+  summary.num_distinct = matches.source.cols();
+  const std::vector<Eigen::Index> consistent = FindConsistent(
+      matches, PruningFrom(options), options.num_threads, &summary.stage_times);
+  summary.num_consistent = static_cast<Eigen::Index>(consistent.size());
+  summary.consistent = InputColumns(matches, consistent);
+  const Points p = Columns(matches.source, consistent);
+  const Points q = Columns(matches.target, consistent);
+
+  Stopwatch stopwatch;
+  const std::vector<TimPair> pairs = MakeTimPairs(
+      p.cols(), options.tim_layout, options.num_random_tims, options.seed);
+  summary.num_tims = static_cast<Eigen::Index>(pairs.size());
+  if (pairs.empty()) {
+    summary.termination = PoseTermination::kInsufficient;
+    std::ostringstream message;
+    message << "a heading needs two consistent matches, of "
+            << summary.num_distinct << " there is " << summary.num_consistent;
+    summary.message = message.str();
+    return summary;
+  }
+  const QuasiSo3 rotation_problem{
+      ComputeTims(p, pairs),
+      ComputeTims(q, pairs),
+      options.tim_bound_factor * options.noise_bound};
+  const auto yaw = FindYaw(rotation_problem, options, &summary);
+  const Eigen::VectorXd weights = TimWeights(rotation_problem, summary, yaw);
+  if (weights.size() > 0) {
+    summary.match_weights =
+        InputValues(matches, consistent, WeighPoints(pairs, weights, p.cols()));
+  }
+  summary.stage_times.push_back({"rotation", stopwatch.Lap()});
+  if (options.yaw_solver == YawSolver::kGnc) {
+    summary.notes.push_back(
+        {"rotation",
+         DescribeGnc(summary.gnc.termination, summary.gnc.iterations.size())});
+  }
+  if (!yaw) {
+    summary.termination = PoseTermination::kDegenerate;
+    summary.message =
+        "the consistent matches hold no heading: they are at one place, above "
+        "one another, or agree in space but in no turn about the vertical";
+    return summary;
+  }
+  summary.yaw = *yaw;
+  summary.model = PoseModel::kYawTranslation;
+
+  const Eigen::Matrix3d rotation = RotationZ(*yaw);
+  const auto translation =
+      EstimateTranslation(rotation * p, q, options.noise_bound);
+  Rigid3 pose{rotation, translation->target_from_source};
+  std::vector<Eigen::Index> inliers;
+  for (std::size_t k = 0; k < consistent.size(); ++k) {
+    if (translation->is_inlier[static_cast<Eigen::Index>(k)]) {
+      inliers.push_back(consistent[k]);
+    }
+  }
+  summary.stage_times.push_back({"translation", stopwatch.Lap()});
+
+  if (options.recover_translation) {
+    const Rigid3 unrecovered = pose;
+    pose = RecoverTranslation(
+        matches.source, matches.target, pose, options.noise_bound);
+    summary.notes.push_back({"recovery", NoteMove(unrecovered, pose)});
+    summary.stage_times.push_back({"recovery", stopwatch.Lap()});
+  }
+  if (options.polish) {
+    const PolishSummary polish = Polish(
+        matches.source, matches.target, consistent, pose, PolishFrom(options));
+    summary.notes.push_back({"polish", polish.message});
+    if (polish.is_polished) {
+      summary.unpolished_target_from_source = pose;
+      summary.model = PoseModel::kRigid;
+      pose = polish.target_from_source;
+    }
+    summary.stage_times.push_back({"polish", stopwatch.Lap()});
+  }
+  if (options.recover_translation || options.polish) {
+    inliers =
+        FindAgreeing(matches.source, matches.target, pose, options.noise_bound);
+  }
+  if (options.crosscheck) {
+    CrosscheckPose(Columns(matches.source, inliers),
+                   Columns(matches.target, inliers),
+                   &summary.crosscheck);
+  }
+  summary.num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
+  summary.translation_inliers = InputColumns(matches, inliers);
+  summary.target_from_source = pose;
+  summary.termination = PoseTermination::kSolved;
+  summary.message = "solved";
+  if (summary.certificate && summary.is_yaw_exact &&
+      options.yaw_solver == YawSolver::kGnc) {
+    summary.message =
+        "solved; graduated non-convexity missed the optimum, "
+        "the exact yaw is used";
+  }
+  return summary;
+}
+
+}  // namespace quatro

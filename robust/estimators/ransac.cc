@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/estimators/ransac.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "features/base/parallel.h"
+#include "features/base/random.h"
+#include "robust/estimators/distinct_matches.h"
+#include "robust/estimators/match_scorer.h"
+#include "robust/estimators/rotation_observability.h"
+#include "solvers/closed_form/rotation.h"
+#include "solvers/closed_form/valid_matches.h"
+#include "solvers/closed_form/yaw_translation.h"
+
+namespace quatro {
+namespace {
+
+// Samples between two looks at the best pose double from the first to the last.
+// They change the time, never the answer.
+constexpr std::int64_t kFirstBatch = 64;
+constexpr std::int64_t kLargestBatch = 4096;
+
+// Bounds of a refit, in noise bounds, and how often the last is repeated.
+constexpr double kShrinkingBounds[] = {3.0, 2.0, 1.5};
+constexpr int kMaxRefits = 10;
+
+// Matches about their means, so that coordinates far from the origin keep
+// their digits.
+struct Problem {
+  DistinctMatches matches;
+  std::optional<MatchedNormals> normals;
+  Eigen::Vector3d source_mean;
+  Eigen::Vector3d target_mean;
+
+  Rigid3 Uncentered(const Rigid3& pose) const {
+    return {pose.rotation,
+            pose.translation + target_mean - pose.rotation * source_mean};
+  }
+};
+
+// Of copies of one match with different normals, the least in order of
+// coordinates, whichever came first.
+MatchedNormals DistinctNormals(const DistinctMatches& matches,
+                               const MatchedNormals& normals) {
+  const auto is_less = [&](Eigen::Index i, Eigen::Index j) {
+    Eigen::Matrix<double, 6, 1> a, b;
+    a << normals.source.col(i), normals.target.col(i);
+    b << normals.source.col(j), normals.target.col(j);
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::vector<Eigen::Index> columns;
+  for (const auto& copies : matches.columns) {
+    columns.push_back(*std::min_element(copies.begin(), copies.end(), is_less));
+  }
+  return {Columns(normals.source, columns), Columns(normals.target, columns)};
+}
+
+Problem MakeProblem(const PointsRef& source,
+                    const PointsRef& target,
+                    const MatchedNormals* normals) {
+  Problem problem;
+  problem.matches = FindDistinctMatches(source, target);
+  if (normals) problem.normals = DistinctNormals(problem.matches, *normals);
+  if (problem.matches.source.cols() == 0) return problem;
+  problem.source_mean = problem.matches.source.rowwise().mean();
+  problem.target_mean = problem.matches.target.rowwise().mean();
+  problem.matches.source.colwise() -= problem.source_mean;
+  problem.matches.target.colwise() -= problem.target_mean;
+  return problem;
+}
+
+struct Fit {
+  Rigid3 pose;
+  double least_turn = 0.0;  // robust/estimators/rotation_observability.h [m^2]
+};
+
+// Least squares over what the sample estimates.
+std::optional<Fit> FitTo(const Problem& problem,
+                         const std::vector<Eigen::Index>& inliers,
+                         MinimalSample sample) {
+  const Points p = Columns(problem.matches.source, inliers);
+  const Points q = Columns(problem.matches.target, inliers);
+  const Weights ones = Weights::Ones(p.cols());
+  if (sample == MinimalSample::kThreePoints) {
+    const auto rigid = EstimateRigid(p, q, ones);
+    if (!rigid) return std::nullopt;
+    return Fit{rigid->target_from_source, LeastTurn(*rigid)};
+  }
+  const auto yaw = EstimateYawTranslation(p, q, ones);
+  if (!yaw) return std::nullopt;
+  return Fit{yaw->target_from_source, 0.5 * yaw->curvature(0, 0)};
+}
+
+std::vector<Eigen::Index> AllColumns(const MatchScorer& scorer) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(scorer.num_matches()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+struct Best {
+  Rigid3 pose;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+// Refits with shrinking bounds, or with the last bound alone, and takes each
+// pose that costs less.
+void Refit(const Problem& problem,
+           const MatchScorer& scorer,
+           MinimalSample sample,
+           bool shrink,
+           Best* best) {
+  Rigid3 pose = best->pose;
+  const auto step = [&](const std::vector<Eigen::Index>& inliers) {
+    const auto fit = FitTo(problem, inliers, sample);
+    if (!fit) return false;
+    pose = fit->pose;
+    const double cost = scorer.Cost(pose, best->cost);
+    if (cost < best->cost) *best = {pose, cost};
+    return true;
+  };
+  if (shrink) {
+    for (const double bound : kShrinkingBounds) {
+      if (!step(scorer.Inliers(pose, bound))) return;
+    }
+  }
+  std::vector<Eigen::Index> before;
+  for (int k = 0; k < kMaxRefits; ++k) {
+    std::vector<Eigen::Index> inliers = scorer.Inliers(pose);
+    if (inliers == before || !step(inliers)) return;
+    before = std::move(inliers);
+  }
+}
+
+// The search. Nothing if no sample gave a pose.
+std::optional<Best> Search(const Problem& problem,
+                           const MatchScorer& scorer,
+                           const RansacOptions& options,
+                           RansacSummary* summary) {
+  struct Hypothesis {
+    std::optional<Rigid3> pose;
+    double cost = 0.0;
+  };
+  const MinimalSample sample = options.minimal.sample;
+  const Eigen::Index n = scorer.num_matches();
+  const bool takes_each_once = sample == MinimalSample::kPointAndNormal;
+  const std::int64_t last =
+      takes_each_once ? std::min<std::int64_t>(options.max_iterations, n)
+                      : options.max_iterations;
+  Best best;
+  double num_enough = std::numeric_limits<double>::infinity();
+  std::vector<Hypothesis> batch;
+  std::int64_t batch_size = kFirstBatch;
+  for (std::int64_t begin = 0; begin < last; begin += batch_size) {
+    if (begin > 0) batch_size = std::min(2 * batch_size, kLargestBatch);
+    batch.assign(static_cast<std::size_t>(std::min(batch_size, last - begin)),
+                 {});
+    // What costs more than the best before the batch can't win in it.
+    const double limit = best.cost;
+    ParallelFor(options.num_threads,
+                static_cast<Eigen::Index>(batch.size()),
+                16,
+                [&](Eigen::Index from, Eigen::Index to) {
+                  for (Eigen::Index k = from; k < to; ++k) {
+                    const std::int64_t iteration = begin + k;
+                    Random random(Mix(options.seed) +
+                                  static_cast<std::uint64_t>(iteration));
+                    Hypothesis& hypothesis = batch[static_cast<std::size_t>(k)];
+                    hypothesis.pose = EstimateMinimalPose(
+                        problem.matches.source,
+                        problem.matches.target,
+                        problem.normals ? &*problem.normals : nullptr,
+                        takes_each_once
+                            ? std::array<Eigen::Index, 3>{iteration, -1, -1}
+                            : DrawSample(sample, n, &random),
+                        options.minimal);
+                    if (hypothesis.pose) {
+                      hypothesis.cost = scorer.Cost(*hypothesis.pose, limit);
+                    }
+                  }
+                });
+    for (const Hypothesis& hypothesis : batch) {
+      ++summary->num_iterations;
+      if (hypothesis.pose) {
+        ++summary->num_hypotheses;
+        if (hypothesis.cost < best.cost) {
+          ++summary->num_improvements;
+          best = {*hypothesis.pose, hypothesis.cost};
+          if (options.local_optimization) {
+            Refit(problem, scorer, sample, true, &best);
+          }
+          num_enough = NumIterationsFor(
+              options.confidence,
+              static_cast<Eigen::Index>(scorer.Inliers(best.pose).size()),
+              n,
+              SampleSize(sample));
+        }
+      }
+      if (static_cast<double>(summary->num_iterations) >= num_enough) {
+        summary->is_confident = true;
+        return best;
+      }
+    }
+  }
+  summary->is_confident = takes_each_once && last == n;
+  if (summary->num_improvements == 0) return std::nullopt;
+  return best;
+}
+
+// A single match is held by its normals.
+bool AreHeld(const Problem& problem,
+             const std::vector<Eigen::Index>& inliers,
+             const MinimalPoseOptions& minimal) {
+  if (minimal.sample == MinimalSample::kPointAndNormal) return true;
+  const auto fit = FitTo(problem, inliers, minimal.sample);
+  return fit && fit->least_turn > minimal.noise_bound * minimal.noise_bound;
+}
+
+}  // namespace
+
+bool RansacOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (max_iterations < 1) {
+    problem << "max_iterations = " << max_iterations << ", must be >= 1";
+  } else if (!(confidence > 0.0 && confidence <= 1.0)) {
+    problem << "confidence = " << confidence << ", must be in (0, 1]";
+  } else if (num_threads < 0) {
+    problem << "num_threads = " << num_threads << ", must be >= 0";
+  } else {
+    return minimal.IsValid(error);
+  }
+  *error = problem.str();
+  return false;
+}
+
+double NumIterationsFor(double confidence,
+                        Eigen::Index num_inliers,
+                        Eigen::Index num_matches,
+                        int sample_size) {
+  double all_inliers = 1.0;
+  for (int j = 0; j < sample_size; ++j) {
+    all_inliers *=
+        static_cast<double>(std::max<Eigen::Index>(0, num_inliers - j)) /
+        static_cast<double>(num_matches - j);
+  }
+  if (!(all_inliers > 0.0)) return std::numeric_limits<double>::infinity();
+  if (all_inliers >= 1.0) return 1.0;
+  return std::max(
+      1.0, std::ceil(std::log1p(-confidence) / std::log1p(-all_inliers)));
+}
+
+RansacSummary SolveRansac(const PointsRef& source,
+                          const PointsRef& target,
+                          const RansacOptions& options,
+                          const MatchedNormals* normals) {
+  const MinimalSample sample = options.minimal.sample;
+  const int num_needed = SampleSize(sample);
+  const double bound = options.minimal.noise_bound;
+  RansacSummary summary;
+  summary.num_needed = num_needed;
+  if (!options.IsValid(&summary.message) ||
+      !AreValidMatches(source, target, &summary.message)) {
+    return summary;
+  }
+  if (sample != MinimalSample::kPointAndNormal) {
+    normals = nullptr;
+  } else if (!normals) {
+    summary.message = "samples of a point and its normal need normals";
+    return summary;
+  } else {
+    if (normals->source.cols() != source.cols() ||
+        normals->target.cols() != target.cols()) {
+      summary.message = "there are not as many normals as matches";
+      return summary;
+    }
+    if (!normals->source.allFinite() || !normals->target.allFinite()) {
+      summary.message = "a normal is not finite";
+      return summary;
+    }
+  }
+
+  Stopwatch stopwatch;
+  const Problem problem = MakeProblem(source, target, normals);
+  summary.num_distinct = problem.matches.source.cols();
+  summary.termination = PoseTermination::kInsufficient;
+  std::optional<Best> best;
+  const MatchScorer scorer(
+      problem.matches.source, problem.matches.target, bound);
+  if (summary.num_distinct >= num_needed) {
+    best = Search(problem, scorer, options, &summary);
+  }
+  std::vector<Eigen::Index> inliers;
+  if (best) {
+    Refit(problem, scorer, sample, false, &*best);
+    inliers = scorer.Inliers(best->pose);
+    summary.cost = best->cost;
+  }
+  summary.num_consistent = static_cast<Eigen::Index>(inliers.size());
+  summary.num_rotation_inliers = summary.num_consistent;
+  summary.consistent = InputColumns(problem.matches, inliers);
+  summary.stage_times.push_back({"ransac", stopwatch.Lap()});
+  const bool are_too_few = summary.num_consistent < num_needed;
+  // Of matches none of whose samples holds a pose.
+  const bool are_all_alike =
+      are_too_few && summary.num_distinct >= num_needed &&
+      !AreHeld(problem, AllColumns(scorer), options.minimal);
+  if (are_too_few && !are_all_alike) {
+    std::ostringstream message;
+    message << "needs " << num_needed << " matches that agree on a pose, of "
+            << summary.num_distinct << " none such were found in "
+            << summary.num_iterations << " samples";
+    summary.message = message.str();
+    return summary;
+  }
+  if (are_all_alike || !AreHeld(problem, inliers, options.minimal)) {
+    summary.termination = PoseTermination::kDegenerate;
+    summary.message =
+        sample == MinimalSample::kThreePoints
+            ? "the matches that agree hold no rotation: they are on one line"
+            : "the matches that agree hold no heading: they are on a vertical";
+    return summary;
+  }
+  summary.num_translation_inliers = summary.num_consistent;
+  summary.translation_inliers = summary.consistent;
+  summary.target_from_source = problem.Uncentered(best->pose);
+  summary.model = sample == MinimalSample::kThreePoints
+                      ? PoseModel::kRigid
+                      : PoseModel::kYawTranslation;
+  summary.termination = PoseTermination::kSolved;
+  summary.message = "solved";
+  return summary;
+}
+
+}  // namespace quatro

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Graduated non-convexity: a robust fit as a sequence of weighted ones.
+//
+// The loop knows neither what is estimated nor how. A Subproblem brings both:
+//
+//   struct Subproblem {
+//     using Estimate = ...;
+//     Eigen::Index NumMeasurements() const;
+//     // Weighted least squares; nullopt if the weights leave it undetermined.
+//     std::optional<Estimate> Solve(const WeightsRef& weights) const;
+//     // ||residual_i||^2 over the squared noise bound: inlier iff <= 1.
+//     Eigen::VectorXd SquaredResiduals(const Estimate& estimate) const;
+//     // The estimate before any data; only kIdentity below asks for it.
+//     Estimate Identity() const;
+//     // Optional: what Solve() made least, if not sum_i w_i r2_i.
+//     double Cost(const Estimate& estimate) const;
+//   };
+//
+// and a Surrogate (robust/gnc/surrogate.h) brings the loss and its schedule. Of
+// ours, robust/gnc/quasi_so3.h is the smallest; robust/gnc/ceres_gnc.h makes
+// one of any ceres::Problem.
+
+#ifndef QUATRO_ROBUST_GNC_GNC_H_
+#define QUATRO_ROBUST_GNC_GNC_H_
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/base/types.h"
+#include "robust/gnc/surrogate.h"
+
+namespace quatro {
+
+// How the loop begins, moves on and ends.
+struct GncOptions {
+  int max_num_iterations = 100;
+
+  GncStart start = GncStart::kPlainFit;
+
+  // mu changes by this factor per iteration. Larger is faster and greedier.
+  double mu_step = 1.4;
+
+  // Stop once every weight is this close to 0 or 1.
+  double binary_weight_tolerance = 1e-6;
+
+  // Stop once |change in weighted cost| <= this * cost.
+  double relative_cost_tolerance = 1e-9;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// Why the loop ended.
+enum class GncTermination {
+  kInvalidOptions,    // Nothing was tried; see message.
+  kUndetermined,      // Some weights left the subproblem without an answer.
+  kAllInliers,        // No residual to start from is above the noise bound.
+  kConverged,         // Weights binary, cost settled, or loss exact.
+  kMaxNumIterations,  // Usable, but mu was still moving.
+};
+
+// "12 iterations, then the weights were binary or the cost settled" and so on.
+std::string DescribeGnc(GncTermination termination, std::size_t num_iterations);
+
+// One step of the loop.
+struct GncIteration {
+  double mu = 0.0;
+  double cost = 0.0;  // sum_i w_i r2_i, or the Subproblem's own.
+  double sum_of_weights = 0.0;
+};
+
+// The estimate, its weights, and the way to them.
+template <typename Estimate>
+struct GncSummary {
+  GncTermination termination = GncTermination::kUndetermined;
+  std::string message;                // Which rule or what trouble ended it.
+  std::optional<Estimate> estimate;   // Set iff IsUsable().
+  Weights weights;                    // Those the estimate was solved with.
+  Eigen::VectorXd squared_residuals;  // Of the estimate; inlier iff <= 1.
+  std::vector<GncIteration> iterations;
+
+  bool IsUsable() const { return estimate.has_value(); }
+};
+
+// The subproblem's own cost, or sum_i w_i r2_i.
+template <typename Subproblem>
+double GncCost(const Subproblem& subproblem,
+               const typename Subproblem::Estimate& estimate,
+               const Weights& weights,
+               const Eigen::VectorXd& r2) {
+  if constexpr (requires { subproblem.Cost(estimate); }) {
+    return subproblem.Cost(estimate);
+  } else {
+    return weights.dot(r2);
+  }
+}
+
+// The loop: weights for a fixed estimate, the estimate for fixed weights.
+template <typename Surrogate, typename Subproblem>
+GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
+                                                   const GncOptions& options) {
+  GncSummary<typename Subproblem::Estimate> summary;
+  if (!options.IsValid(&summary.message)) {
+    summary.termination = GncTermination::kInvalidOptions;
+    return summary;
+  }
+
+  summary.weights.setOnes(subproblem.NumMeasurements());
+  summary.estimate = subproblem.Solve(summary.weights);
+  if (!summary.IsUsable()) {
+    summary.message = "the measurements do not determine an estimate";
+    return summary;
+  }
+  Eigen::VectorXd& r2 = summary.squared_residuals;
+  r2 = subproblem.SquaredResiduals(*summary.estimate);
+
+  // Without measurements there is nothing to weigh: the plain fit stands.
+  const double max_r2 =
+      r2.size() == 0 ? 0.0
+      : options.start == GncStart::kPlainFit
+          ? r2.maxCoeff()
+          : subproblem.SquaredResiduals(subproblem.Identity()).maxCoeff();
+  if (max_r2 <= 1.0) {
+    summary.termination = GncTermination::kAllInliers;
+    summary.message = "no residual to start from is above its bound";
+    return summary;
+  }
+
+  summary.termination = GncTermination::kMaxNumIterations;
+  summary.message = "no more iterations were allowed";
+  double mu = Surrogate::InitialMu(max_r2, options.start);
+  double previous_cost = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < options.max_num_iterations; ++i) {
+    // Weights for a fixed estimate, then the estimate for fixed weights.
+    summary.weights =
+        r2.unaryExpr([mu](double r2_i) { return Surrogate::Weight(r2_i, mu); });
+    summary.estimate = subproblem.Solve(summary.weights);
+    if (!summary.IsUsable()) {
+      summary.termination = GncTermination::kUndetermined;
+      summary.message = "all weight was taken away";
+      return summary;
+    }
+    r2 = subproblem.SquaredResiduals(*summary.estimate);
+
+    const double cost =
+        GncCost(subproblem, *summary.estimate, summary.weights, r2);
+    summary.iterations.push_back({mu, cost, summary.weights.sum()});
+
+    const double gap_to_binary =
+        summary.weights.array().min(1.0 - summary.weights.array()).maxCoeff();
+    const double cost_change = std::abs(previous_cost - cost);
+    const char* const stop =
+        Surrogate::IsExact(mu) ? "the loss was exact"
+        : gap_to_binary <= options.binary_weight_tolerance
+            ? "the weights were binary"
+        : cost_change <= options.relative_cost_tolerance * cost
+            ? "the cost settled"
+            : nullptr;
+    if (stop != nullptr) {
+      summary.termination = GncTermination::kConverged;
+      summary.message = stop;
+      return summary;
+    }
+    previous_cost = cost;
+    mu = Surrogate::NextMu(mu, options.mu_step);
+  }
+  return summary;
+}
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_GNC_GNC_H_

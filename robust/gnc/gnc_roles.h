@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Which residual blocks may be outliers and what their bounds are, by the lists
+// of CeresGncOptions; part of robust/gnc/ceres_gnc.h, which says what is
+// refused.
+
+#ifndef QUATRO_ROBUST_GNC_GNC_ROLES_H_
+#define QUATRO_ROBUST_GNC_GNC_ROLES_H_
+
+#include <ceres/ceres.h>
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "robust/gnc/ceres_gnc_options.h"
+
+namespace quatro {
+
+// The role and the bound of each residual block.
+using GncBlocks = std::unordered_map<ceres::ResidualBlockId, GncBlock>;
+
+// Of all residual blocks, candidates with their bounds. Nullopt, with *error
+// set, where the lists contradict each other or the problem.
+std::optional<GncBlocks> AssignGncRoles(const ceres::Problem& problem,
+                                        const CeresGncOptions& options,
+                                        std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_GNC_GNC_ROLES_H_

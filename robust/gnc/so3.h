@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The full rotation as a subproblem of robust/gnc/gnc.h, for when roll and
+// pitch are not known,
+//
+//   r_k(R)^2 = | beta_k - R alpha_k |^2 / noise_bound^2.
+//
+// Needs two differences that are not parallel, hence three matches.
+
+#ifndef QUATRO_ROBUST_GNC_SO3_H_
+#define QUATRO_ROBUST_GNC_SO3_H_
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "features/base/types.h"
+#include "solvers/closed_form/rotation.h"
+
+namespace quatro {
+
+// A rotation from differences of points, for robust/gnc/gnc.h.
+struct So3 {
+  using Estimate = RotationEstimate;
+
+  Points source;             // alpha_k [m]
+  Points target;             // beta_k [m]
+  double noise_bound = 1.0;  // [m]
+
+  Eigen::Index NumMeasurements() const { return source.cols(); }
+
+  Estimate Identity() const {
+    Estimate identity;
+    identity.target_from_source.setIdentity();
+    return identity;
+  }
+
+  std::optional<Estimate> Solve(const WeightsRef& weights) const {
+    return EstimateRotation(source, target, weights);
+  }
+
+  Eigen::VectorXd SquaredResiduals(const Estimate& rotation) const {
+    return (target - rotation.target_from_source * source)
+               .colwise()
+               .squaredNorm()
+               .transpose() /
+           (noise_bound * noise_bound);
+  }
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_GNC_SO3_H_

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/registration/front_end.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "features/base/parallel.h"
+#include "features/matching.h"
+#include "features/normals.h"
+#include "features/voxel_grid.h"
+
+namespace quatro {
+namespace {
+
+AssumedSensor AssumeSensor(const Points& points, const Eigen::Vector3d& up) {
+  const Eigen::Vector3d low = points.rowwise().minCoeff();
+  const Eigen::Vector3d high = points.rowwise().maxCoeff();
+  const Eigen::Vector3d margin = 0.5 * (high - low);
+  AssumedSensor sensor;
+  sensor.is_scan =
+      (low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0;
+  if (sensor.is_scan) return sensor;
+  const Eigen::Vector3d middle = 0.5 * (low + high);
+  sensor.place =
+      middle + up * (up.transpose() * (points.colwise() - middle)).maxCoeff();
+  return sensor;
+}
+
+// Sets what is kept of the cloud, and returns its FPFH, unless it is to be
+// described otherwise.
+Fpfh Describe(const Points& points,
+              const Eigen::Vector3d& up,
+              const FrontEndOptions& options,
+              int num_threads,
+              DescribedCloud* cloud) {
+  cloud->tree = std::make_shared<const KdTree>(points);
+  cloud->sensor = AssumeSensor(points, up);
+  const Neighborhoods neighborhoods =
+      FindNeighborhoods(*cloud->tree, options.fpfh_radius, num_threads);
+  cloud->normals = EstimateNormals(points,
+                                   neighborhoods,
+                                   options.normal_radius,
+                                   cloud->sensor.place,
+                                   num_threads);
+  if (options.describe) return Fpfh();
+  return ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
+}
+
+// A larger radius reaches across most of a scan.
+constexpr double kMaxVoxels = 100.0;
+
+}  // namespace
+
+bool FrontEndOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(voxel_size > 0.0 && std::isfinite(voxel_size))) {
+    problem << "voxel_size = " << voxel_size << ", must be > 0 and finite";
+  } else if (!(normal_radius > 0.0 && std::isfinite(normal_radius))) {
+    problem << "normal_radius = " << normal_radius
+            << ", must be > 0 and finite";
+  } else if (!(fpfh_radius >= normal_radius)) {
+    problem << "fpfh_radius = " << fpfh_radius
+            << ", must be >= normal_radius = " << normal_radius;
+  } else if (fpfh_radius > kMaxVoxels * voxel_size) {
+    problem << "fpfh_radius = " << fpfh_radius << ", must be <= " << kMaxVoxels
+            << " voxel_size = " << kMaxVoxels * voxel_size;
+  } else {
+    return tuple.IsValid(error);
+  }
+  *error = problem.str();
+  return false;
+}
+
+MatchedClouds MatchClouds(
+    const PointCloud& source,
+    const PointCloud& target,
+    const Eigen::Vector3d& source_up,
+    const Eigen::Vector3d& target_up,
+    const FrontEndOptions& options,
+    std::uint64_t seed,
+    int num_threads,
+    const std::function<void(const StageTime&)>& progress) {
+  MatchedClouds clouds;
+  if (source.points.cols() == 0 || target.points.cols() == 0) {
+    clouds.error = source.points.cols() == 0 ? "the source has no points"
+                                             : "the target has no points";
+    return clouds;
+  }
+
+  Stopwatch stopwatch;
+  const auto finish_stage = [&](const char* stage) {
+    clouds.stage_times.push_back({stage, stopwatch.Lap()});
+    if (progress) progress(clouds.stage_times.back());
+  };
+
+  // Both at once, by half of the threads each: what either does by one thread
+  // alone is done beside the other's.
+  std::array<std::optional<Points>, 2> voxels;
+  std::array<std::string, 2> errors;
+  const auto for_both = [&](const auto& body) {
+    ParallelFor(num_threads, 2, 1, [&](Eigen::Index begin, Eigen::Index end) {
+      for (Eigen::Index i = begin; i < end; ++i) {
+        body(static_cast<std::size_t>(i));
+      }
+    });
+  };
+  const std::array<const PointCloud*, 2> given = {&source, &target};
+  for_both([&](std::size_t i) {
+    voxels[i] = SampleVoxels(given[i]->points, options.voxel_size, &errors[i]);
+  });
+  for (const std::size_t i : {0u, 1u}) {
+    if (voxels[i]) continue;
+    clouds.error = (i == 0 ? "source: " : "target: ") + errors[i];
+    return clouds;
+  }
+  const auto& [source_voxels, target_voxels] = voxels;
+  finish_stage("voxels");
+
+  const std::array<DescribedCloud*, 2> described = {&clouds.source,
+                                                    &clouds.target};
+  const std::array<const Eigen::Vector3d*, 2> up = {&source_up, &target_up};
+  const int num_threads_to_use = NumThreadsToUse(num_threads);
+  const std::array<int, 2> num_threads_of = {
+      (num_threads_to_use + 1) / 2, std::max(1, num_threads_to_use / 2)};
+  std::array<Fpfh, 2> fpfh;
+  for_both([&](std::size_t i) {
+    fpfh[i] =
+        Describe(*voxels[i], *up[i], options, num_threads_of[i], described[i]);
+  });
+  if (options.describe) {
+    for (const std::size_t i : {0u, 1u}) {
+      fpfh[i] = options.describe(
+          *voxels[i], described[i]->normals, options.fpfh_radius);
+      CHECK_EQ(fpfh[i].cols(), voxels[i]->cols());
+    }
+  }
+  finish_stage("features");
+
+  std::vector<Match> matches =
+      MatchMutualNearest(fpfh[0], fpfh[1], num_threads);
+  clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
+  if (options.tuple_test) {
+    TupleTestOptions tuple = options.tuple;
+    tuple.seed = seed;
+    tuple.num_threads = num_threads;
+    matches = FilterByTupleTest(matches, *source_voxels, *target_voxels, tuple);
+  }
+  const auto num_matches = static_cast<Eigen::Index>(matches.size());
+  clouds.matched_source.resize(3, num_matches);
+  clouds.matched_target.resize(3, num_matches);
+  for (Eigen::Index k = 0; k < num_matches; ++k) {
+    const Match& match = matches[static_cast<std::size_t>(k)];
+    clouds.matched_source.col(k) = source_voxels->col(match.source);
+    clouds.matched_target.col(k) = target_voxels->col(match.target);
+  }
+  finish_stage("matching");
+  return clouds;
+}
+
+}  // namespace quatro

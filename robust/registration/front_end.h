@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// From two clouds to matched points:
+//
+//   clouds -> voxels -> normals, FPFH -> mutual nearest -> tuple test
+//
+// Source: Section III.A of the Quatro paper.
+
+#ifndef QUATRO_ROBUST_REGISTRATION_FRONT_END_H_
+#define QUATRO_ROBUST_REGISTRATION_FRONT_END_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "features/base/stopwatch.h"
+#include "features/base/types.h"
+#include "features/fpfh.h"
+#include "features/io/point_cloud.h"
+#include "features/kd_tree.h"
+#include "features/tuple_test.h"
+
+namespace quatro {
+
+// Another descriptor of the same points, a column each; zero for no descriptor.
+// `normals` are unit or, where there is none, zero, `radius` [m].
+using CloudDescriber = std::function<Fpfh(
+    const Points& points, const Points& normals, double radius)>;
+
+// Sizes and radii, all in metres.
+struct FrontEndOptions {
+  double voxel_size = 0.3;     // [m]
+  double normal_radius = 0.9;  // [m]
+  double fpfh_radius = 1.5;    // [m], normal_radius to 100 voxel_size.
+  CloudDescriber describe;     // In place of FPFH, with its radius.
+  bool tuple_test = true;
+  TupleTestOptions tuple;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// Where the sensor stood: at the origin of a scan. A cloud that does not reach
+// around its origin is in the coordinates of a map; there, above its middle,
+// from where it need not have been seen.
+struct AssumedSensor {
+  bool is_scan = true;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // [m]
+};
+
+// The voxel means of a cloud and what is known of the surface at each.
+struct DescribedCloud {
+  AssumedSensor sensor;
+  std::shared_ptr<const KdTree> tree;  // Of the voxel means [m].
+  Points normals;
+};
+
+// Two clouds described, and their matches.
+struct MatchedClouds {
+  // Why nothing was tried: an option out of range, a cloud without points or
+  // too wide. Empty otherwise.
+  std::string error;
+
+  DescribedCloud source;
+  DescribedCloud target;
+
+  // What was matched: voxel means in their own frames, column by column.
+  Points matched_source;                // [m]
+  Points matched_target;                // [m]
+  Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
+
+  std::vector<StageTime> stage_times;
+};
+
+// `source_up` and `target_up`: what is up in each cloud. Options must be valid.
+MatchedClouds MatchClouds(
+    const PointCloud& source,
+    const PointCloud& target,
+    const Eigen::Vector3d& source_up,
+    const Eigen::Vector3d& target_up,
+    const FrontEndOptions& options,
+    std::uint64_t seed,
+    int num_threads,
+    const std::function<void(const StageTime&)>& progress);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_FRONT_END_H_

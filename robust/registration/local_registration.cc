@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/registration/local_registration.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "features/base/stopwatch.h"
+#include "features/kd_tree.h"
+#include "features/voxel_grid.h"
+#include "robust/registration/refinement.h"
+#include "solvers/local/gicp.h"
+
+namespace quatro {
+namespace {
+
+constexpr int kNumNeighbors = 20;
+
+std::optional<Points> Sample(const char* name,
+                             const PointCloud& cloud,
+                             double voxel_size,
+                             std::string* error) {
+  if (cloud.points.cols() == 0) {
+    *error = std::string("the ") + name + " has no points";
+    return std::nullopt;
+  }
+  auto voxels = SampleVoxels(cloud.points, voxel_size, error);
+  if (!voxels) *error = std::string(name) + ": " + *error;
+  return voxels;
+}
+
+PoseTermination TerminationOf(const AlignmentSummary& alignment) {
+  switch (alignment.termination) {
+    case AlignmentTermination::kInsufficient:
+      return PoseTermination::kInsufficient;
+    case AlignmentTermination::kDegenerate:
+      return PoseTermination::kDegenerate;
+    case AlignmentTermination::kConverged:
+    case AlignmentTermination::kNotConverged:
+      return PoseTermination::kSolved;
+    case AlignmentTermination::kInvalidInput:
+      break;
+  }
+  return PoseTermination::kInvalidInput;
+}
+
+Verdict JudgeAlignment(const AlignmentSummary& alignment) {
+  Verdict verdict;
+  verdict.reason = alignment.message;
+  if (alignment.IsUsable()) {
+    verdict.status = Status::kAmbiguous;
+    verdict.reason +=
+        " from the guess; without matches nothing tells whether it was near";
+  } else if (alignment.termination == AlignmentTermination::kDegenerate) {
+    verdict.status = Status::kDegenerate;
+  }
+  return verdict;
+}
+
+using FinishStage = std::function<void(const char* stage)>;
+
+AlignmentSummary AlignVoxels(Points source,
+                             Points target,
+                             const Rigid3& initial_target_from_source,
+                             const RefinementOptions& options,
+                             const FinishStage& finish_stage) {
+  const int num_threads = options.alignment.num_threads;
+  const KdTree source_tree(std::move(source));
+  const KdTree target_tree(std::move(target));
+  Points source_normals;
+  Points target_normals;
+  if (options.method != RefinementMethod::kIcp) {
+    source_normals =
+        EstimateNearestNormals(source_tree, kNumNeighbors, num_threads);
+    target_normals =
+        EstimateNearestNormals(target_tree, kNumNeighbors, num_threads);
+  }
+  finish_stage("normals");
+  return Align({source_tree, source_normals},
+               {target_tree, target_normals},
+               initial_target_from_source,
+               options);
+}
+
+// By `align`, or ours if it is empty.
+RegistrationSummary RegisterBy(const PointCloud& source,
+                               const PointCloud& target,
+                               const Rigid3& initial_target_from_source,
+                               const RegistrationOptions& options,
+                               const CloudAligner& align) {
+  RegistrationSummary summary;
+  if (!options.IsValid(&summary.error)) return summary;
+  if (options.refinement.method == RefinementMethod::kNone) {
+    summary.error = "refinement.method is none, nothing to register by";
+    return summary;
+  }
+  Stopwatch total;
+  Stopwatch stopwatch;
+  const FinishStage finish_stage = [&](const char* stage) {
+    summary.stage_times.push_back({stage, stopwatch.Lap()});
+    if (options.progress) options.progress(summary.stage_times.back());
+  };
+  const double voxel_size = options.front_end.voxel_size;
+  auto source_voxels = Sample("source", source, voxel_size, &summary.error);
+  if (!source_voxels) return summary;
+  auto target_voxels = Sample("target", target, voxel_size, &summary.error);
+  if (!target_voxels) return summary;
+  summary.num_source_voxels = source_voxels->cols();
+  summary.num_target_voxels = target_voxels->cols();
+  finish_stage("voxels");
+
+  const Eigen::Vector3d source_middle = source_voxels->rowwise().mean();
+  RefinementOptions by = options.refinement;
+  by.alignment.num_threads = options.num_threads;
+  RefinementSummary refinement;
+  refinement.method = by.method;
+  refinement.alignment =
+      align
+          ? align(
+                *source_voxels, *target_voxels, initial_target_from_source, by)
+          : AlignVoxels(std::move(*source_voxels),
+                        std::move(*target_voxels),
+                        initial_target_from_source,
+                        by,
+                        finish_stage);
+  const AlignmentSummary& alignment = refinement.alignment;
+  if (alignment.termination == AlignmentTermination::kInvalidInput) {
+    summary.error = alignment.message;
+    return summary;
+  }
+  refinement.message = alignment.message;
+  refinement.unrefined_target_from_source = initial_target_from_source;
+  refinement.target_from_source = initial_target_from_source;
+  summary.solution.termination = TerminationOf(alignment);
+  summary.solution.message = alignment.message;
+  summary.solution.num_needed = 3;
+  if (alignment.IsUsable()) {
+    summary.solution.target_from_source = alignment.target_from_source;
+    refinement.is_accepted = true;
+    refinement.target_from_source = *alignment.target_from_source;
+    refinement.SetMoved(source_middle, *alignment.target_from_source);
+  }
+  summary.refinement = std::move(refinement);
+  finish_stage("alignment");
+  summary.verdict = JudgeAlignment(summary.refinement->alignment);
+  summary.total_seconds = total.Lap();
+  return summary;
+}
+
+}  // namespace
+
+RegistrationSummary RegisterLocally(const PointCloud& source,
+                                    const PointCloud& target,
+                                    const Rigid3& initial_target_from_source,
+                                    const RegistrationOptions& options) {
+  return RegisterBy(
+      source, target, initial_target_from_source, options, nullptr);
+}
+
+RegistrationSummary RegisterLocally(const PointCloud& source,
+                                    const PointCloud& target,
+                                    const Rigid3& initial_target_from_source,
+                                    const RegistrationOptions& options,
+                                    const CloudAligner& align) {
+  return RegisterBy(source, target, initial_target_from_source, options, align);
+}
+
+}  // namespace quatro

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/registration/presets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "features/kd_tree.h"
+#include "features/surface_share.h"
+#include "features/voxel_grid.h"
+
+namespace quatro {
+namespace {
+
+constexpr Eigen::Index kWantedVoxels = 15000;
+constexpr Eigen::Index kNumSamples = 1000;
+constexpr double kWantedSurfaceShare = 2.0 / 3.0;
+constexpr double kGrowth = 1.15;
+constexpr double kMaxGrowth = 16.0;
+
+RegistrationOptions InProportionTo(double voxel_size) {
+  RegistrationOptions options;
+  options.front_end.voxel_size = voxel_size;
+  options.front_end.normal_radius = 3.0 * voxel_size;
+  options.front_end.fpfh_radius = 5.0 * voxel_size;
+  options.quatro.noise_bound = voxel_size;
+  return options;
+}
+
+// Without what the paper and its code do not have.
+RegistrationOptions WithoutExtensions() {
+  RegistrationOptions options;
+  options.front_end.voxel_size = 0.3;
+  options.front_end.normal_radius = 0.5;
+  options.quatro.replace_missed_optimum = false;
+  options.quatro.recover_translation = false;
+  options.quatro.polish = false;
+  return options;
+}
+
+RegistrationOptions MakePaper() {
+  RegistrationOptions options = WithoutExtensions();
+  options.front_end.fpfh_radius = 0.65;
+  options.quatro.noise_bound = 0.15;
+  options.quatro.tim_bound_factor = 1.0;
+  options.quatro.gnc.start = GncStart::kIdentity;
+  return options;
+}
+
+RegistrationOptions MakeReference() {
+  RegistrationOptions options = WithoutExtensions();
+  options.front_end.fpfh_radius = 0.75;
+  options.quatro.noise_bound = 0.3;
+  options.quatro.tim_bound_factor = 2.0;
+  options.quatro.gnc.start = GncStart::kPlainFit;
+  return options;
+}
+
+Eigen::Index CountVoxels(const PointCloud& cloud, double voxel_size) {
+  std::string error;
+  const auto voxels = SampleVoxels(cloud.points, voxel_size, &error);
+  return voxels ? voxels->cols() : cloud.points.cols();
+}
+
+// The size at which the cloud keeps kWantedVoxels, by bisection in the
+// logarithm. A cloud with fewer points than that gives the smallest size.
+double SizeForWantedVoxels(const PointCloud& cloud) {
+  double low = std::log(0.01);
+  double high = std::log(10.0);
+  for (int i = 0; i < 8; ++i) {
+    const double middle = 0.5 * (low + high);
+    (CountVoxels(cloud, std::exp(middle)) > kWantedVoxels ? low : high) =
+        middle;
+  }
+  return std::exp(high);
+}
+
+// Median distance of a point from its nearest neighbour elsewhere [m].
+double TypicalSpacing(const PointCloud& cloud) {
+  const KdTree tree(cloud.points);
+  const Eigen::Index n = cloud.points.cols();
+  const Eigen::Index step = std::max<Eigen::Index>(1, n / kNumSamples);
+  std::vector<double> squared;
+  for (Eigen::Index i = 0; i < n; i += step) {
+    const auto nearest = tree.Nearest(cloud.points.col(i), 2);
+    if (nearest.size() == 2) squared.push_back(nearest[1].squared_distance);
+  }
+  if (squared.empty()) return 0.0;
+  const auto middle =
+      squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+  std::nth_element(squared.begin(), middle, squared.end());
+  return std::sqrt(*middle);
+}
+
+double SurfaceShareOfVoxels(const PointCloud& cloud, double voxel_size) {
+  std::string error;
+  const auto voxels = SampleVoxels(cloud.points, voxel_size, &error);
+  const double radius = InProportionTo(voxel_size).front_end.normal_radius;
+  return voxels ? SurfaceShare(KdTree(*voxels), radius) : 1.0;
+}
+
+// `voxel_size` enlarged until normals are those of surfaces; as it is where no
+// size in reach does that.
+double SizeForSurfaces(const PointCloud& cloud, double voxel_size) {
+  const double largest = kMaxGrowth * voxel_size;
+  double size = voxel_size;
+  while (size <= largest) {
+    if (SurfaceShareOfVoxels(cloud, size) >= kWantedSurfaceShare) return size;
+    size *= kGrowth;
+  }
+  return voxel_size;
+}
+
+}  // namespace
+
+std::vector<std::string> PresetNames() {
+  return {"kitti", "paper", "kitti_paper", "reference", "indoor"};
+}
+
+std::optional<RegistrationOptions> MakePreset(const std::string& name) {
+  if (name == "kitti") return InProportionTo(0.3);
+  if (name == "paper" || name == "kitti_paper") return MakePaper();
+  if (name == "reference") return MakeReference();
+  if (name == "indoor") return InProportionTo(0.1);
+  return std::nullopt;
+}
+
+RegistrationOptions MakeAutoOptions(const PointCloud& source,
+                                    const PointCloud& target) {
+  if (source.points.cols() == 0 || target.points.cols() == 0) {
+    return InProportionTo(0.3);
+  }
+  const double size =
+      std::max(SizeForWantedVoxels(source), SizeForWantedVoxels(target));
+  const double spacing =
+      std::max(TypicalSpacing(source), TypicalSpacing(target));
+  // Two digits: a size that can be quoted, and that small changes do not move.
+  const double dense = std::max(size, spacing);
+  const double chosen =
+      std::max(SizeForSurfaces(source, dense), SizeForSurfaces(target, dense));
+  const double unit = std::pow(10.0, std::floor(std::log10(chosen)) - 1.0);
+  return InProportionTo(std::max(0.01, std::round(chosen / unit) * unit));
+}
+
+}  // namespace quatro

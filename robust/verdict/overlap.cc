@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/verdict/overlap.h"
+
+#include <algorithm>
+
+#include "features/nearest_within.h"
+#include "robust/verdict/contact.h"
+
+namespace quatro {
+namespace {
+
+constexpr std::size_t kMinStructure = 50;
+
+// a's structure in the range of b's sensor, none of it near yet.
+std::vector<StructurePoint> FindCounted(const SurfaceCloud& a,
+                                        const SurfaceCloud& b,
+                                        const Rigid3& b_from_a) {
+  const Points& points = a.tree.points();
+  const double max_range = UsefulRange(b);
+  std::vector<StructurePoint> found;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!IsStructure(a.normals.col(i), a.up)) continue;
+    const Eigen::Vector3d point_in_b =
+        b_from_a * Eigen::Vector3d(points.col(i));
+    if ((point_in_b - b.sensor).norm() <= max_range) found.push_back({i});
+  }
+  return found;
+}
+
+void SetNearest(const SurfaceCloud& a,
+                const SurfaceCloud& b,
+                const Rigid3& b_from_a,
+                Eigen::Index nearest,
+                StructurePoint* point) {
+  point->nearest = nearest;
+  point->is_near = true;
+  point->is_met = NormalsAgree(b_from_a.rotation * a.normals.col(point->index),
+                               b.normals.col(nearest));
+}
+
+}  // namespace
+
+std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
+                                          const SurfaceCloud& b,
+                                          const Rigid3& b_from_a,
+                                          double max_distance,
+                                          int num_threads) {
+  std::vector<StructurePoint> found = FindCounted(a, b, b_from_a);
+  Points places(3, static_cast<Eigen::Index>(found.size()));
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    places.col(static_cast<Eigen::Index>(k)) =
+        b_from_a * Eigen::Vector3d(a.tree.points().col(found[k].index));
+  }
+  const auto nearest =
+      FindNearestWithin(b.tree, places, max_distance, num_threads);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (nearest[k] == kNoneWithin) continue;
+    SetNearest(a, b, b_from_a, nearest[k], &found[k]);
+  }
+  return found;
+}
+
+std::vector<StructurePoint> FindStructure(
+    const SurfaceCloud& a,
+    const SurfaceCloud& b,
+    const Rigid3& b_from_a,
+    const std::vector<std::int32_t>& contacts) {
+  std::vector<StructurePoint> found = FindCounted(a, b, b_from_a);
+  for (StructurePoint& point : found) {
+    const auto nearest = contacts[static_cast<std::size_t>(point.index)];
+    if (nearest != kNoContact) SetNearest(a, b, b_from_a, nearest, &point);
+  }
+  return found;
+}
+
+std::optional<double> ShareMet(const std::vector<StructurePoint>& structure) {
+  if (structure.size() < kMinStructure) return std::nullopt;
+  const auto num_met = std::count_if(structure.begin(),
+                                     structure.end(),
+                                     [](const auto& p) { return p.is_met; });
+  return static_cast<double>(num_met) / static_cast<double>(structure.size());
+}
+
+std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
+                                              const SurfaceCloud& target,
+                                              const Rigid3& target_from_source,
+                                              double max_distance,
+                                              int num_threads) {
+  if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
+    return std::nullopt;
+  }
+  const auto of_source = ShareMet(FindStructure(
+      source, target, target_from_source, max_distance, num_threads));
+  const auto of_target = ShareMet(FindStructure(
+      target, source, Inverse(target_from_source), max_distance, num_threads));
+  if (!of_source || !of_target) return std::nullopt;
+  return std::min(*of_source, *of_target);
+}
+
+}  // namespace quatro

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/verdict/rival.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "robust/estimators/arc_consensus.h"
+#include "robust/estimators/consensus.h"
+#include "robust/estimators/distinct_matches.h"
+#include "solvers/closed_form/gravity.h"
+#include "solvers/closed_form/translation.h"
+
+namespace quatro {
+namespace {
+
+constexpr double kYawStep = 5.0 * M_PI / 180.0;
+
+// More than these tell nothing new about where matches lie.
+constexpr Eigen::Index kMaxSameMatches = 500;
+
+// The columns whose value is within `bound` of the best consensus on the axis.
+std::vector<Eigen::Index> FindConsensus(
+    const Points& offsets,
+    int axis,
+    const std::vector<Eigen::Index>& candidates,
+    double bound,
+    double* center) {
+  const Points selected = Columns(offsets, candidates);
+  const auto consensus =
+      EstimateConsensus(selected.row(axis).transpose(),
+                        Weights::Constant(selected.cols(), bound));
+  *center = consensus->value;
+  std::vector<Eigen::Index> kept;
+  for (const Eigen::Index i : candidates) {
+    if (std::abs(offsets(axis, i) - *center) <= bound) kept.push_back(i);
+  }
+  return kept;
+}
+
+// The turn by at least `min_rotation` that keeps the most of `moved` within the
+// bound of `target`. Both are about the origin.
+Rigid3 FindTurnOfSameMatches(const Points& moved,
+                             const Points& target,
+                             double bound,
+                             double min_rotation) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(moved.cols()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = static_cast<Eigen::Index>(i);
+  }
+  Rigid3 best;
+  std::size_t most = 0;
+  const double arc = 2.0 * (M_PI - min_rotation);
+  const int num_steps = static_cast<int>(std::ceil(arc / kYawStep));
+  for (int step = 0; step <= num_steps; ++step) {
+    Rigid3 turn;
+    turn.rotation = RotationZ(min_rotation + arc * step / num_steps);
+    const Points offsets = target - turn.rotation * moved;
+    const auto along_x =
+        FindConsensus(offsets, 0, all, bound, &turn.translation.x());
+    const auto agreeing =
+        FindConsensus(offsets, 1, along_x, bound, &turn.translation.y());
+    if (agreeing.size() > most) {
+      most = agreeing.size();
+      best = turn;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+bool RivalOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(min_rotation > 0.0 && min_rotation < M_PI)) {
+    problem << "min_rotation = " << min_rotation << ", must be in (0, pi)";
+  } else if (!(min_shift_factor >= 2.0 && std::isfinite(min_shift_factor))) {
+    problem << "min_shift_factor = " << min_shift_factor
+            << ", must be >= 2 and finite";
+  } else if (num_pairs < 1) {
+    problem << "num_pairs = " << num_pairs << ", must be >= 1";
+  } else if (max_num_matches < 2) {
+    problem << "max_num_matches = " << max_num_matches << ", must be >= 2";
+  } else if (!(std::abs(up_in_target.norm() - 1.0) <= 1e-6)) {
+    problem << "up_in_target = (" << up_in_target.transpose()
+            << "), must be a unit vector";
+  } else if (num_threads < 0) {
+    problem << "num_threads = " << num_threads << ", must be >= 0";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+std::optional<Rival> FindRival(const PointsRef& source,
+                               const PointsRef& target,
+                               const Rigid3& target_from_source,
+                               double noise_bound,
+                               const RivalOptions& options) {
+  if (options.up_in_target != Eigen::Vector3d::UnitZ()) {
+    const Rigid3 level{
+        RotationBetween(options.up_in_target, Eigen::Vector3d::UnitZ()),
+        Eigen::Vector3d::Zero()};
+    RivalOptions level_options = options;
+    level_options.up_in_target = Eigen::Vector3d::UnitZ();
+    auto rival = FindRival(source,
+                           level.Apply(target),
+                           level * target_from_source,
+                           noise_bound,
+                           level_options);
+    if (rival) {
+      rival->target_from_source = Inverse(level) * rival->target_from_source;
+    }
+    return rival;
+  }
+
+  const Points moved = target_from_source.Apply(source);
+  const std::vector<Eigen::Index> agreeing =
+      FindAgreeing(source, target, target_from_source, noise_bound);
+  const double min_shift = options.min_shift_factor * noise_bound;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  std::vector<Rigid3> turns;  // D
+
+  const bool has_same_matches = agreeing.size() >= 2;
+  if (has_same_matches) {
+    middle = Columns(target, agreeing).rowwise().mean();
+    std::vector<Eigen::Index> some = agreeing;
+    some.resize(
+        std::min(agreeing.size(), static_cast<std::size_t>(kMaxSameMatches)));
+    Rigid3 turn =
+        FindTurnOfSameMatches(Columns(moved, some).colwise() - middle,
+                              Columns(target, some).colwise() - middle,
+                              noise_bound,
+                              options.min_rotation);
+    turn.translation += middle - turn.rotation * middle;
+    turns.push_back(turn);
+  }
+
+  std::vector<Eigen::Index> far;
+  for (Eigen::Index i = 0; i < moved.cols(); ++i) {
+    if ((target.col(i) - moved.col(i)).cwiseAbs().maxCoeff() <= min_shift) {
+      continue;
+    }
+    far.push_back(i);
+    if (static_cast<Eigen::Index>(far.size()) == options.max_num_matches) break;
+  }
+  ArcConsensusOptions arc;
+  arc.noise_bound = noise_bound;
+  arc.min_planar_length = 10.0 * noise_bound;
+  arc.num_pairs = options.num_pairs;
+  arc.seed = options.seed;
+  arc.num_threads = options.num_threads;
+  const PoseSummary other =
+      SolveArcConsensus(Columns(moved, far), Columns(target, far), arc);
+  if (other.IsUsable()) turns.push_back(*other.target_from_source);
+
+  std::optional<Rival> best;
+  for (const Rigid3& turn : turns) {
+    if (Eigen::AngleAxisd(turn.rotation).angle() <
+            0.999 * options.min_rotation &&
+        (turn * middle - middle).norm() <= min_shift) {
+      continue;
+    }
+    Rival rival;
+    rival.target_from_source = turn * target_from_source;
+    rival.has_same_matches = has_same_matches && &turn == &turns.front();
+    rival.num_agreeing = static_cast<Eigen::Index>(
+        FindAgreeing(source, target, rival.target_from_source, noise_bound)
+            .size());
+    const auto k = static_cast<double>(agreeing.size());
+    const auto l = static_cast<double>(rival.num_agreeing);
+    rival.margin = (k - l) / std::sqrt(std::max(1.0, k + l));
+    if (rival.num_agreeing >= 2 &&
+        (!best || rival.num_agreeing > best->num_agreeing)) {
+      best = rival;
+    }
+  }
+  return best;
+}
+
+}  // namespace quatro

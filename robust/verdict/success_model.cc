@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/verdict/success_model.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace quatro {
+namespace {
+
+// From the output of experiments/scripts/calibrate_verdict.py.
+constexpr double kMatchesIntercept = -5.207;
+constexpr double kMatchesWeights[] = {3.577, 3.931};
+constexpr double kCloudsIntercept = -8.557;
+constexpr double kCloudsWeights[] = {
+    0.0, 0.984, 2.046, 3.001, 1.926, 2.576, 1.616};
+
+// What is assumed where free space is not known: it says little either way.
+constexpr double kUsualContradictedShare = 0.1;
+constexpr double kUsualRivalContradictedShare = 0.15;
+
+// 0 below `low`, 1 above `high`.
+double Ramp(double x, double low, double high) {
+  return std::clamp((x - low) / (high - low), 0.0, 1.0);
+}
+
+}  // namespace
+
+std::vector<Feature> MakeFeatures(
+    double log10_false_alarms,
+    const std::optional<Rival>& rival,
+    const std::optional<GeometricEvidence>& geometry) {
+  std::vector<Feature> features = {
+      {"surprise",
+       Ramp(std::log1p(std::max(0.0, -log10_false_alarms)), 0.0, 3.0)},
+      {"margin", rival ? Ramp(rival->margin, 0.0, 3.0) : 1.0}};
+  if (!geometry) return features;
+  const bool is_known = geometry->free_space.ContradictedShare().has_value();
+  const double contradicted = geometry->free_space.ContradictedShare().value_or(
+      kUsualContradictedShare);
+  const double rival_contradicted =
+      geometry->rival_free_space.ContradictedShare().value_or(
+          is_known ? contradicted : kUsualRivalContradictedShare);
+  features.push_back({"overlap", Ramp(geometry->structure_overlap, 0.0, 0.3)});
+  features.push_back({"free_space", Ramp(1.0 - contradicted, 0.5, 0.95)});
+  features.push_back(
+      {"distinctness", Ramp(geometry->Distinctness(), 0.0, 0.15)});
+  features.push_back(
+      {"rival_refuted",
+       std::max(Ramp(rival_contradicted - contradicted, 0.0, 0.1),
+                Ramp(geometry->Distinctness(), 0.4, 0.5))});
+  features.push_back(
+      {"held",
+       Ramp(std::log10(std::max(1e-3, geometry->weakest_share)), -2.0, -0.8)});
+  return features;
+}
+
+double ProbabilityOfSuccess(const std::vector<Feature>& features) {
+  const bool has_clouds = features.size() != std::size(kMatchesWeights);
+  const std::span<const double> weights =
+      has_clouds ? std::span<const double>(kCloudsWeights) : kMatchesWeights;
+  CHECK_EQ(features.size(), weights.size());
+  double sum = has_clouds ? kCloudsIntercept : kMatchesIntercept;
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    sum += weights[j] * features[j].value;
+  }
+  return 1.0 / (1.0 + std::exp(-sum));
+}
+
+}  // namespace quatro

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/verdict/surface_observability.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "features/base/parallel.h"
+
+namespace quatro {
+namespace {
+
+constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
+constexpr Eigen::Index kMinMet = 50;
+
+// Points of a that are met in b, and b's normals there, both in b.
+struct MetPoints {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+};
+
+MetPoints FindMet(const SurfaceCloud& a,
+                  const SurfaceCloud& b,
+                  const Rigid3& b_from_a,
+                  const Contacts& contacts) {
+  const Points& points = a.tree.points();
+  MetPoints result;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const std::int32_t nearest = contacts[static_cast<std::size_t>(i)];
+    if (nearest == kNoContact) continue;
+    const Eigen::Vector3d normal = b.normals.col(nearest);
+    if (!NormalsAgree(b_from_a.rotation * a.normals.col(i), normal)) continue;
+    result.points.push_back(b_from_a * Eigen::Vector3d(points.col(i)));
+    result.normals.push_back(normal);
+  }
+  return result;
+}
+
+// The sums of (1) and of its pieces over one scan's points.
+struct Sums {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  Matrix6 information = Matrix6::Zero();
+  Eigen::Matrix2d level = Eigen::Matrix2d::Zero();
+  Eigen::Index num_structure = 0;
+};
+
+Sums SumUp(const MetPoints& met, const Eigen::Vector3d& center) {
+  Sums sums;
+  for (std::size_t i = 0; i < met.points.size(); ++i) {
+    const Eigen::Vector3d x = met.points[i] - center;
+    const Eigen::Vector3d& n = met.normals[i];
+    Vector6 a;
+    a << x.cross(n), n;
+    sums.information += a * a.transpose();
+    sums.scatter += x * x.transpose();
+    if (std::abs(n.z()) > kMaxVertical) continue;
+    ++sums.num_structure;
+    sums.level += n.head<2>() * n.head<2>().transpose();
+  }
+  return sums;
+}
+
+// In [0, 1].
+double Part(const DirectionInformation& direction, const StructureHold& hold) {
+  if (direction.freedom == Freedom::kTranslation) return direction.information;
+  const Eigen::Vector3d& w = direction.axis;
+  const double squared_distance =
+      hold.scatter.trace() - w.dot(hold.scatter * w) +
+      w.cross(direction.point - hold.center).squaredNorm();
+  return squared_distance > 0.0 ? direction.information / squared_distance
+                                : 0.0;
+}
+
+void NameUnheld(const StructureHoldOptions& options, StructureHold* hold) {
+  for (const DirectionInformation& direction :
+       SplitInformation(hold->information, hold->center, options.min_part)) {
+    if (Part(direction, *hold) >= options.min_part) continue;
+    hold->unheld.push_back({direction.freedom,
+                            NotHeld::kNoSurface,
+                            direction.axis,
+                            direction.point,
+                            {}});
+  }
+}
+
+}  // namespace
+
+bool StructureHoldOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(max_distance > 0.0 && std::isfinite(max_distance))) {
+    problem << "structure_hold.max_distance = " << max_distance
+            << ", must be > 0 and finite";
+  } else if (!(min_part >= 0.0 && min_part < 1.0)) {
+    problem << "structure_hold.min_part = " << min_part
+            << ", must be in [0, 1)";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+std::optional<StructureHold> MeasureStructureHold(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const StructureHoldOptions& options,
+    int num_threads) {
+  return MeasureStructureHold(source,
+                              target,
+                              target_from_source,
+                              FindMutualContacts(source,
+                                                 target,
+                                                 target_from_source,
+                                                 options.max_distance,
+                                                 num_threads),
+                              options,
+                              num_threads);
+}
+
+std::optional<StructureHold> MeasureStructureHold(
+    const SurfaceCloud& source,
+    const SurfaceCloud& target,
+    const Rigid3& target_from_source,
+    const MutualContacts& contacts,
+    const StructureHoldOptions& options,
+    int num_threads) {
+  MetPoints of_source, of_target;
+  ParallelDo(
+      num_threads,
+      [&] {
+        of_source =
+            FindMet(source, target, target_from_source, contacts.of_source);
+      },
+      [&] {
+        of_target = FindMet(
+            target, source, Inverse(target_from_source), contacts.of_target);
+      });
+  StructureHold hold;
+  hold.num_met = static_cast<Eigen::Index>(of_source.points.size() +
+                                           of_target.points.size());
+  if (hold.num_met < kMinMet) return std::nullopt;
+  for (Eigen::Vector3d& point : of_target.points) {
+    point = target_from_source * point;
+  }
+  for (Eigen::Vector3d& normal : of_target.normals) {
+    normal = target_from_source.rotation * normal;
+  }
+
+  // From a point first, which keeps the digits of coordinates far out.
+  const auto n = static_cast<double>(hold.num_met);
+  const Eigen::Vector3d origin = of_source.points.empty()
+                                     ? of_target.points.front()
+                                     : of_source.points.front();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& point : of_source.points) mean += point - origin;
+  for (const auto& point : of_target.points) mean += point - origin;
+  hold.center = origin + mean / n;
+  Sums source_sums, target_sums;
+  ParallelDo(
+      num_threads,
+      [&] { source_sums = SumUp(of_source, hold.center); },
+      [&] { target_sums = SumUp(of_target, hold.center); });
+  hold.information = (source_sums.information + target_sums.information) / n;
+  hold.scatter = (source_sums.scatter + target_sums.scatter) / n;
+  hold.num_structure = source_sums.num_structure + target_sums.num_structure;
+  if (hold.num_structure > 0) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> level(
+        source_sums.level + target_sums.level);
+    hold.weakest_level_axis.head<2>() = level.eigenvectors().col(0);
+    hold.weakest_level_share =
+        std::max(0.0, level.eigenvalues()[0]) / level.eigenvalues().sum();
+  }
+  NameUnheld(options, &hold);
+  return hold;
+}
+
+}  // namespace quatro

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The residual of a weighted pair, for Ceres,
+//
+//   r = sqrt(w) (q - R p - t),     its squared norm w || q - R p - t ||^2,  (1)
+//
+// with R held as the numbers of a group: TurnAboutZ or Turn. A group says how
+// to rotate a point, Rotate(), and how its numbers change, to second order in
+// delta, when R -> exp([delta]x) R, Perturb().
+
+#ifndef QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_
+#define QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_
+
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/sized_cost_function.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "solvers/ceres/manifolds.h"
+#include "solvers/ceres/second_derivative.h"
+
+namespace quatro {
+
+// R_z(a), held as (cos a, sin a).
+struct TurnAboutZ {
+  static constexpr int kSize = 2;
+  static constexpr int kFreedoms = 1;
+  using Manifold = UnitCircleManifold;
+
+  template <typename T>
+  static Eigen::Vector3<T> Rotate(const T* r, const Eigen::Vector3<T>& p) {
+    return {r[0] * p.x() - r[1] * p.y(), r[1] * p.x() + r[0] * p.y(), p.z()};
+  }
+
+  template <typename T>
+  static void Perturb(const T* r, const T* delta, T* perturbed) {
+    UnitCircle().Plus(r, delta, perturbed);
+  }
+};
+
+// Any rotation, held as a unit quaternion in Eigen's order (x, y, z, w).
+struct Turn {
+  static constexpr int kSize = 4;
+  static constexpr int kFreedoms = 3;
+  using Manifold = ceres::EigenQuaternionManifold;
+
+  template <typename T>
+  static Eigen::Vector3<T> Rotate(const T* r, const Eigen::Vector3<T>& p) {
+    return Eigen::Map<const Eigen::Quaternion<T>>(r) * p;
+  }
+
+  // exp = (sin(|delta| / 2) delta / |delta|, cos(|delta| / 2)) to second order,
+  // which jets can take at zero, too.
+  template <typename T>
+  static void Perturb(const T* r, const T* delta, T* perturbed) {
+    const T x = delta[0] * Constant<T>(0.5);
+    const T y = delta[1] * Constant<T>(0.5);
+    const T z = delta[2] * Constant<T>(0.5);
+    const T w = Constant<T>(1.0) - (x * x + y * y + z * z) * Constant<T>(0.5);
+    const Eigen::Quaternion<T> exp(w, x, y, z);
+    Eigen::Map<Eigen::Quaternion<T>> product(perturbed);
+    product = exp * Eigen::Map<const Eigen::Quaternion<T>>(r);
+  }
+};
+
+// (1), for Ceres or ComputeSecondDerivative() to differentiate.
+template <typename Group>
+struct PairResidual {
+  using CostFunction =
+      ceres::AutoDiffCostFunction<PairResidual, 3, Group::kSize, 3>;
+
+  template <typename T>
+  bool operator()(const T* r, const T* t, T* residual) const {
+    const Eigen::Vector3<T> p(Constant<T>(source.x()),
+                              Constant<T>(source.y()),
+                              Constant<T>(source.z()));
+    const Eigen::Vector3<T> rotated = Group::Rotate(r, p);
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = Constant<T>(sqrt_weight) *
+                    (Constant<T>(target[i]) - rotated[i] - t[i]);
+    }
+    return true;
+  }
+
+  Eigen::Vector3d source;
+  Eigen::Vector3d target;
+  double sqrt_weight = 1.0;
+};
+
+// (1) for a turn about z, differentiated by hand.
+class AnalyticYawResidual final : public ceres::SizedCostFunction<3, 2, 3> {
+ public:
+  // Of the same pair as the automatic one.
+  explicit AnalyticYawResidual(const PairResidual<TurnAboutZ>& pair)
+      : pair_(pair) {}
+
+  bool Evaluate(double const* const* parameters,
+                double* residual,
+                double** jacobians) const override {
+    pair_(parameters[0], parameters[1], residual);
+    if (jacobians == nullptr) return true;
+
+    const double u = pair_.sqrt_weight;
+    const Eigen::Vector3d& p = pair_.source;
+    if (jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 3, 2, Eigen::RowMajor>> wrt_turn(
+          jacobians[0]);
+      wrt_turn << -u * p.x(), u * p.y(),  //
+          -u * p.y(), -u * p.x(),         //
+          0.0, 0.0;
+    }
+    if (jacobians[1] != nullptr) {
+      Eigen::Map<Eigen::Matrix3d> wrt_translation(jacobians[1]);
+      wrt_translation = -u * Eigen::Matrix3d::Identity();
+    }
+    return true;
+  }
+
+ private:
+  PairResidual<TurnAboutZ> pair_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The pose on matched points with what an INS knows of the vertical:
+//
+//   R, t = argmin  sum_i |q_i - R p_i - t|^2 / noise_sigma^2
+//                  + |R u - v|^2 / angle_std^2,                             (1)
+//
+// with u and v the unit vectors that point up in the source and in the target.
+// |R u - v| is the angle between the two verticals as long as that is small. It
+// does not hold a turn about them: the yaw is the matches'.
+//
+// Swapping source and target, and u and v, gives the inverse.
+
+#ifndef QUATRO_SOLVERS_CERES_INS_REFINEMENT_H_
+#define QUATRO_SOLVERS_CERES_INS_REFINEMENT_H_
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+
+namespace quatro {
+
+// What is up in each cloud, and how sure that is.
+struct VerticalPrior {
+  Eigen::Vector3d up_in_source = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
+  double angle_std = 0.01;  // Of their angle, about either level axis [rad].
+
+  // The second term of (1).
+  double Cost(const Eigen::Matrix3d& target_from_source) const;
+};
+
+// The minimum of (1).
+struct InsRefinement {
+  Rigid3 target_from_source;
+  double cost = 0.0;  // Value of (1) at the minimum.
+};
+
+// A local minimum of (1), by Ceres from `initial_target_from_source`. Nullopt
+// if matches and prior together do not hold a rotation (no two matches, or all
+// of them above one another), for what is not finite, and if Ceres fails.
+std::optional<InsRefinement> RefineWithIns(
+    const PointsRef& source,
+    const PointsRef& target,
+    double noise_sigma,
+    const Rigid3& initial_target_from_source,
+    const VerticalPrior& prior);
+
+}  // namespace quatro
+
+#endif  // QUATRO_SOLVERS_CERES_INS_REFINEMENT_H_

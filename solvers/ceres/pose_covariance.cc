@@ -1,0 +1,430 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "solvers/ceres/pose_covariance.h"
+
+#include <ceres/covariance.h>
+#include <ceres/problem.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "solvers/ceres/ceres_residuals.h"
+#include "solvers/closed_form/centroid.h"
+#include "solvers/closed_form/gravity.h"
+#include "solvers/closed_form/valid_matches.h"
+
+namespace quatro {
+namespace {
+
+constexpr double kMinConditioning = 1e-6;  // Of a lever over the extent.
+constexpr double kMaxRoundings = 8.0;
+
+// (3) about the centroids: x_i = R p_i' and y_i = q_i - c.
+struct CenteredMatches {
+  Points x;
+  Points y;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();  // R mean(p) [m]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double extent = 1.0;    // Root mean square of |x_i|, 1 if that is none [m].
+  double rounding = 0.0;  // Of the coordinates as given [m].
+};
+
+CenteredMatches Centered(const PointsRef& source,
+                         const PointsRef& target,
+                         const Rigid3& pose) {
+  CenteredMatches matches;
+  if (source.cols() == 0) return matches;
+  const CenteredPoints p = Center(source, Weights::Ones(source.cols()));
+  matches.x = pose.rotation * p.points;
+  matches.arm = pose.rotation * p.centroid;
+  matches.center = matches.arm + pose.translation;
+  matches.y = target.colwise() - matches.center;
+  matches.rounding = p.rounding;
+  const double extent =
+      std::sqrt(matches.x.squaredNorm() / static_cast<double>(source.cols()));
+  if (extent > kMaxRoundings * p.rounding) matches.extent = extent;
+  return matches;
+}
+
+// J^T J of (3), of the matches alone. Nothing off the diagonal blocks, for the
+// x_i add up to nothing.
+Matrix6 MatchInformation(const CenteredMatches& matches, double sigma) {
+  const Eigen::Matrix3d scatter = matches.x * matches.x.transpose();
+  Matrix6 information = Matrix6::Zero();
+  information.topLeftCorner<3, 3>() =
+      scatter.trace() * Eigen::Matrix3d::Identity() - scatter;
+  information.bottomRightCorner<3, 3>() =
+      static_cast<double>(matches.x.cols()) * Eigen::Matrix3d::Identity();
+  return information / (sigma * sigma);
+}
+
+// J^T J of |R u - v|^2 / angle_std^2 over w.
+Eigen::Matrix3d PriorInformation(const VerticalPrior& prior,
+                                 const Eigen::Matrix3d& rotation) {
+  const Eigen::Vector3d up = rotation * prior.up_in_source / prior.angle_std;
+  return up.squaredNorm() * Eigen::Matrix3d::Identity() - up * up.transpose();
+}
+
+// J^T r of (3), r = y_i - exp([w]x) x_i - u.
+Vector6 Gradient(const CenteredMatches& matches,
+                 const PoseCovarianceOptions& options,
+                 double sigma,
+                 const Eigen::Matrix3d& rotation) {
+  Vector6 gradient = Vector6::Zero();
+  for (Eigen::Index i = 0; i < matches.x.cols(); ++i) {
+    const Eigen::Vector3d x = matches.x.col(i);
+    const Eigen::Vector3d r = matches.y.col(i) - x;
+    gradient.head<3>() -= x.cross(r) / (sigma * sigma);
+    gradient.tail<3>() -= r / (sigma * sigma);
+  }
+  if (options.model == PoseModel::kRigid && options.prior) {
+    const VerticalPrior& prior = *options.prior;
+    const Eigen::Vector3d up = rotation * prior.up_in_source;
+    gradient.head<3>() +=
+        up.cross(up - prior.up_in_target) / (prior.angle_std * prior.angle_std);
+  }
+  return gradient;
+}
+
+// (1) as a function of the numbers of (3): delta is w of the group.
+template <typename Group>
+struct PerturbedPair {
+  using CostFunction =
+      ceres::AutoDiffCostFunction<PerturbedPair, 3, Group::kFreedoms, 3>;
+
+  template <typename T>
+  bool operator()(const T* delta, const T* shift, T* residual) const {
+    T identity[Group::kSize];
+    for (T& number : identity) number = Constant<T>(0.0);
+    identity[Group::kSize == 4 ? 3 : 0] = Constant<T>(1.0);
+    T turn[Group::kSize];
+    Group::Perturb(identity, delta, turn);
+    return pair(turn, shift, residual);
+  }
+
+  PairResidual<Group> pair;
+};
+
+struct PerturbedVertical {
+  using CostFunction = ceres::AutoDiffCostFunction<PerturbedVertical, 3, 3>;
+
+  template <typename T>
+  bool operator()(const T* delta, T* residual) const {
+    const T zero = Constant<T>(0.0);
+    const T identity[4] = {zero, zero, zero, Constant<T>(1.0)};
+    T turn[4];
+    Turn::Perturb(identity, delta, turn);
+    const Eigen::Vector3<T> turned = Turn::Rotate<T>(turn, up.cast<T>());
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = (turned[i] - prior.up_in_target[i]) / prior.angle_std;
+    }
+    return true;
+  }
+
+  Eigen::Vector3d up;  // R u
+  VerticalPrior prior;
+};
+
+// Of (delta, u) by Ceres, zero where the problem has no rank. In units of the
+// extent, lest metres against radians decide what that is. Points are in a
+// frame whose z is the group's.
+template <typename Group>
+std::optional<Eigen::MatrixXd> CeresCovariance(
+    const Points& x,
+    const Points& y,
+    double extent,
+    double sigma,
+    const PerturbedVertical* vertical) {
+  constexpr int kFreedoms = Group::kFreedoms;
+  double delta[kFreedoms] = {};
+  double shift[3] = {};
+  ceres::Problem problem;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    problem.AddResidualBlock(
+        new typename PerturbedPair<Group>::CostFunction(
+            new PerturbedPair<Group>{PairResidual<Group>{
+                x.col(i) / extent, y.col(i) / extent, extent / sigma}}),
+        nullptr,
+        delta,
+        shift);
+  }
+  if (vertical != nullptr) {
+    problem.AddResidualBlock(
+        new PerturbedVertical::CostFunction(new PerturbedVertical(*vertical)),
+        nullptr,
+        delta);
+  }
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;
+  options.null_space_rank = -1;  // Any: directions without data come out zero.
+  ceres::Covariance covariance(options);
+  const std::vector<const double*> blocks = {delta, shift};
+  Eigen::Matrix<double, kFreedoms + 3, kFreedoms + 3, Eigen::RowMajor> scaled;
+  if (!covariance.Compute(blocks, &problem) ||
+      !covariance.GetCovarianceMatrix(blocks, scaled.data()) ||
+      !scaled.allFinite()) {
+    return std::nullopt;
+  }
+  Eigen::Vector<double, kFreedoms + 3> units;
+  units.head(kFreedoms).setOnes();
+  units.tail(3).setConstant(extent);
+  return Eigen::MatrixXd(units.asDiagonal() * scaled * units.asDiagonal());
+}
+
+// The columns are the estimated freedoms in the places of (w, u).
+Eigen::MatrixXd Freedoms(const PoseCovarianceOptions& options) {
+  if (options.model == PoseModel::kRigid) return Matrix6::Identity();
+  Eigen::MatrixXd freedoms = Eigen::MatrixXd::Zero(6, 4);
+  freedoms.topLeftCorner<3, 1>() = options.up_in_target;
+  freedoms.bottomRightCorner<3, 3>().setIdentity();
+  return freedoms;
+}
+
+// Of the estimated freedoms, in the places of (w, u).
+std::optional<Matrix6> EstimatedCovariance(const CenteredMatches& matches,
+                                           const PoseCovarianceOptions& options,
+                                           double sigma,
+                                           const Eigen::Matrix3d& rotation,
+                                           const Matrix6& information) {
+  if (matches.x.cols() > options.max_ceres_matches) {
+    const Eigen::MatrixXd B = Freedoms(options);
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(B.transpose() * information * B);
+    return Matrix6(B * ldlt.solve(B.transpose()));
+  }
+  if (options.model == PoseModel::kRigid) {
+    const PerturbedVertical vertical{
+        options.prior ? Eigen::Vector3d(rotation * options.prior->up_in_source)
+                      : Eigen::Vector3d::UnitZ(),
+        options.prior.value_or(VerticalPrior())};
+    const auto covariance =
+        CeresCovariance<Turn>(matches.x,
+                              matches.y,
+                              matches.extent,
+                              sigma,
+                              options.prior ? &vertical : nullptr);
+    if (!covariance) return std::nullopt;
+    return Matrix6(*covariance);
+  }
+  const Eigen::Matrix3d level_from_target =
+      RotationBetween(options.up_in_target, Eigen::Vector3d::UnitZ());
+  const auto covariance =
+      CeresCovariance<TurnAboutZ>(level_from_target * matches.x,
+                                  level_from_target * matches.y,
+                                  matches.extent,
+                                  sigma,
+                                  nullptr);
+  if (!covariance) return std::nullopt;
+  Eigen::MatrixXd target_from_level = Freedoms(options);
+  target_from_level.bottomRightCorner<3, 3>() = level_from_target.transpose();
+  return Matrix6(target_from_level * *covariance *
+                 target_from_level.transpose());
+}
+
+// What an error of the assumed tilt E s, s ~ N(0, tilt_std^2), does: it is one
+// itself, and the yaw that fits best then is off by b^T s / a.
+Eigen::Matrix3d TiltCovariance(const Matrix6& information,
+                               const PoseCovarianceOptions& options) {
+  const Eigen::Matrix3d A_ww = information.topLeftCorner<3, 3>();
+  const Eigen::Vector3d& up = options.up_in_target;
+  const Eigen::Matrix3d level =
+      Eigen::Matrix3d::Identity() - up * up.transpose();  // E E^T
+  const Eigen::Matrix3d error =
+      level - up * (up.transpose() * A_ww * level) / (up.dot(A_ww * up));
+  return options.tilt_std * options.tilt_std * error * error.transpose();
+}
+
+// What holds a rotation, if anything: points off the axis, or a prior.
+std::optional<NotHeld> WhyNotHeld(const DirectionInformation& direction,
+                                  const Matrix6& match_information,
+                                  const Matrix6& information,
+                                  const CenteredMatches& matches,
+                                  const PoseCovarianceOptions& options,
+                                  double sigma) {
+  const auto n = static_cast<double>(matches.x.cols());
+  if (direction.freedom == Freedom::kTranslation) {
+    return n > 0.0 ? std::nullopt : std::optional(NotHeld::kNoData);
+  }
+  const Eigen::Vector3d& w = direction.axis;
+  const double by_matches = w.dot(match_information.topLeftCorner<3, 3>() * w);
+  const double by_prior =
+      w.dot(information.topLeftCorner<3, 3>() * w) - by_matches;
+  // From the axis, root mean square [m].
+  const double lever = sigma * std::sqrt(by_matches / std::max(1.0, n));
+  if (by_prior > 1.0 && by_prior >= by_matches) return std::nullopt;
+  if (!(lever > std::max(kMinConditioning * matches.extent,
+                         kMaxRoundings * matches.rounding))) {
+    return NotHeld::kNoData;
+  }
+  if (!(lever > options.min_lever * sigma)) return NotHeld::kWithinNoise;
+  return std::nullopt;
+}
+
+// The directions that may not be held: all, or yaw and translation.
+std::vector<DirectionInformation> EstimatedDirections(
+    const Matrix6& information,
+    const Eigen::Vector3d& center,
+    const PoseCovarianceOptions& options) {
+  std::vector<DirectionInformation> directions =
+      SplitInformation(information, center, 0.0);
+  if (options.model == PoseModel::kRigid) return directions;
+  directions.resize(3);
+  const Eigen::Vector3d& up = options.up_in_target;
+  directions.push_back({Freedom::kRotation,
+                        up,
+                        center,
+                        up.dot(information.topLeftCorner<3, 3>() * up)});
+  return directions;
+}
+
+// How uncertain the direction is, in (w, u).
+double StandardDeviation(const DirectionInformation& direction,
+                         const Matrix6& covariance) {
+  const int place = direction.freedom == Freedom::kRotation ? 0 : 3;
+  const Eigen::Matrix3d block = covariance.block<3, 3>(place, place);
+  return std::sqrt(std::max(0.0, direction.axis.dot(block * direction.axis)));
+}
+
+double EstimateSigma(const CenteredMatches& matches,
+                     Eigen::Index num_freedoms) {
+  const auto num_spare =
+      static_cast<double>(3 * matches.x.cols() - num_freedoms);
+  return std::sqrt((matches.y - matches.x).squaredNorm() / num_spare);
+}
+
+}  // namespace
+
+bool PoseCovarianceOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  const auto is_positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  const auto check = [&](const char* name, double value) {
+    if (problem.tellp() != 0 || is_positive(value)) return;
+    problem << name << " = " << value << ", must be > 0 and finite";
+  };
+  check("covariance.sigma", sigma);
+  check("covariance.tilt_std", tilt_std);
+  check("covariance.max_rotation_std", max_rotation_std);
+  check("covariance.max_translation_std", max_translation_std);
+  if (prior) check("covariance.prior.angle_std", prior->angle_std);
+  if (problem.tellp() != 0) {
+  } else if (!(min_lever >= 0.0 && std::isfinite(min_lever))) {
+    problem << "covariance.min_lever = " << min_lever
+            << ", must be >= 0 and finite";
+  } else if (!(std::abs(up_in_target.norm() - 1.0) <= 1e-6)) {
+    problem << "covariance.up_in_target = (" << up_in_target.transpose()
+            << "), must be a unit vector";
+  } else if (max_ceres_matches < 0) {
+    problem << "covariance.max_ceres_matches = " << max_ceres_matches
+            << ", must be >= 0";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+PoseCovariance ComputePoseCovariance(const PointsRef& source,
+                                     const PointsRef& target,
+                                     const Rigid3& target_from_source,
+                                     const PoseCovarianceOptions& options) {
+  PoseCovariance result;
+  if (!options.IsValid(&result.message) ||
+      !AreValidMatches(source, target, &result.message)) {
+    return result;
+  }
+  if (!target_from_source.ToMatrix().allFinite()) {
+    result.message = "the pose is not finite";
+    return result;
+  }
+  const Eigen::Matrix3d& R = target_from_source.rotation;
+  const CenteredMatches matches = Centered(source, target, target_from_source);
+  const Eigen::MatrixXd B = Freedoms(options);
+  result.center = matches.center;
+  result.sigma = options.sigma;
+  if (3 * source.cols() > B.cols()) {
+    result.estimated_sigma = EstimateSigma(matches, B.cols());
+    if (options.sigma_from_residuals) {
+      result.sigma = std::max(*result.estimated_sigma, options.sigma / 3.0);
+    }
+  }
+
+  const Matrix6 by_matches = MatchInformation(matches, result.sigma);
+  Matrix6 information = by_matches;
+  if (options.model == PoseModel::kRigid && options.prior) {
+    information.topLeftCorner<3, 3>() += PriorInformation(*options.prior, R);
+  }
+  const auto directions =
+      EstimatedDirections(information, matches.center, options);
+  bool is_held = true;
+  for (const DirectionInformation& direction : directions) {
+    const auto why_not = WhyNotHeld(
+        direction, by_matches, information, matches, options, result.sigma);
+    if (!why_not) continue;
+    is_held = false;
+    result.unheld.push_back(
+        {direction.freedom, *why_not, direction.axis, direction.point, {}});
+  }
+
+  std::optional<Matrix6> estimated;
+  if (source.cols() > 0) {
+    estimated =
+        EstimatedCovariance(matches, options, result.sigma, R, information);
+    // Where the covariance is the inverse, the product is the identity.
+    if (estimated) {
+      result.rank =
+          static_cast<int>(std::lround((*estimated * information).trace()));
+    }
+  }
+  if (options.model == PoseModel::kYawTranslation) {
+    const Eigen::Matrix3d target_from_level =
+        RotationBetween(Eigen::Vector3d::UnitZ(), options.up_in_target);
+    for (const int axis : {0, 1}) {
+      result.unheld.push_back({Freedom::kRotation,
+                               NotHeld::kAssumed,
+                               target_from_level.col(axis),
+                               matches.center,
+                               options.tilt_std});
+    }
+  }
+  if (!is_held || !estimated || result.rank < B.cols()) {
+    std::ostringstream message;
+    message << source.cols() << " matches hold " << result.rank << " of "
+            << B.cols() << " freedoms";
+    for (const UnheldDirection& direction : result.unheld) {
+      message << "; " << direction.Describe();
+    }
+    result.message = message.str();
+    return result;
+  }
+
+  const Vector6 gradient = Gradient(matches, options, result.sigma, R);
+  result.offset = std::sqrt(std::max(0.0, gradient.dot(*estimated * gradient)));
+  if (options.model == PoseModel::kYawTranslation) {
+    estimated->topLeftCorner<3, 3>() += TiltCovariance(information, options);
+  }
+  *estimated = (0.5 * (*estimated + estimated->transpose())).eval();
+  for (const DirectionInformation& direction : directions) {
+    const double deviation = StandardDeviation(direction, *estimated);
+    const double limit = direction.freedom == Freedom::kRotation
+                             ? options.max_rotation_std
+                             : options.max_translation_std;
+    if (deviation <= limit) continue;
+    result.unheld.push_back({direction.freedom,
+                             NotHeld::kUncertain,
+                             direction.axis,
+                             direction.point,
+                             deviation});
+  }
+  Matrix6 from_center = Matrix6::Identity();  // Equation (3).
+  for (int i = 0; i < 3; ++i) {
+    from_center.block<3, 1>(3, i) = matches.arm.cross(Eigen::Vector3d::Unit(i));
+  }
+  result.covariance_at_center = *estimated;
+  const Matrix6 covariance = from_center * *estimated * from_center.transpose();
+  result.covariance = 0.5 * (covariance + covariance.transpose());
+  result.message = "held";
+  return result;
+}
+
+}  // namespace quatro

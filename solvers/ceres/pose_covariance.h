@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// How certain a pose from matched points is. With normal noise of standard
+// deviation sigma on each axis of q_i, the least squares pose
+//
+//   min_{R, t}  sum_i |q_i - R p_i - t|^2 / sigma^2                        (1)
+//
+// has the covariance (J^T J)^-1 of the error (w, d), both in the target frame,
+//
+//   true R = exp([w]x) R,   true t = t + d,                                (2)
+//
+// w [rad] in the first three places, d [m] in the last: turns about the axes of
+// the target, translations of the image of the source's origin. Far from that
+// origin, w and d are correlated to the last digits, and (2) holds to first
+// order only as long as |R mean(p)| |w|^2 is small. The same without either:
+// turns about c = R mean(p) + t and translations of c,
+//
+//   true target_from_source: x -> exp([w]x) (R p + t - c) + c + u,         (3)
+//   d = u + (R mean(p)) x w.
+//
+// The covariance is Ceres', of (1) at the given pose by a dense singular value
+// decomposition that reveals the rank.
+//
+// Directions that are not held are named. If a direction is held by nothing, or
+// by points that are as good as on one axis, there is no covariance: any number
+// would be wrong.
+//
+// What it leaves out: matches that err alike (neighbours in a scan do, and all
+// of a sensor that is off), and estimators that do not minimise (1): see
+// `offset`. On real pairs it is too small for that: there the normalised error
+// squared is tens, not 6.
+
+#ifndef QUATRO_SOLVERS_CERES_POSE_COVARIANCE_H_
+#define QUATRO_SOLVERS_CERES_POSE_COVARIANCE_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+#include "solvers/ceres/ins_refinement.h"
+#include "solvers/ceres/observability.h"
+
+namespace quatro {
+
+// Which freedoms were estimated.
+enum class PoseModel {
+  kRigid,  // All six freedoms are estimated.
+  // A turn about the vertical and a translation. The tilt, a turn about a level
+  // axis, is assumed to be right, with an error of `tilt_std` that goes into
+  // the covariance with all it does to the yaw and the translation.
+  kYawTranslation,
+};
+
+// The noise, and from where on a direction counts as held.
+struct PoseCovarianceOptions {
+  PoseModel model = PoseModel::kRigid;
+
+  // Of a match on each axis [m]; or from the residuals, where there are more of
+  // them than freedoms, but no less than sigma / 3.
+  double sigma = 0.1;
+  bool sigma_from_residuals = false;
+
+  // For kYawTranslation: the vertical, a unit vector, and the tilt's standard
+  // deviation about either level axis [rad].
+  Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
+  double tilt_std = 0.0175;
+
+  // For kRigid: a term of (1) beside the matches
+  // (solvers/ceres/ins_refinement.h).
+  std::optional<VerticalPrior> prior;
+
+  // Directions less certain than this are named, at c.
+  double max_rotation_std = 0.01;    // [rad]
+  double max_translation_std = 0.3;  // [m]
+
+  // An axis from which the points are no farther than so many sigma (root mean
+  // square) is held by noise alone.
+  double min_lever = 2.0;
+
+  // Of more matches J^T J is summed up and inverted without Ceres.
+  Eigen::Index max_ceres_matches = 2000;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// How certain a pose is, and in which directions it is not.
+struct PoseCovariance {
+  std::optional<Matrix6> covariance;                 // Of (2).
+  std::optional<Matrix6> covariance_at_center;       // Of w and u in (3).
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // c [m]
+
+  std::vector<UnheldDirection> unheld;
+
+  // Of the 6 or 4 estimated freedoms, as many as the problem holds.
+  int rank = 0;
+
+  double sigma = 0.0;                     // As used [m].
+  std::optional<double> estimated_sigma;  // From the residuals [m].
+
+  // From the pose to the minimum of (1), in standard deviations. What is not
+  // small against 1 comes from an estimator of another cost: then the
+  // covariance is that of the minimum.
+  double offset = 0.0;
+
+  std::string message = "no covariance was asked for";
+};
+
+// Column i of `source` is matched with column i of `target` [m]; all are taken
+// to be right. Never fails but for sizes that differ, for what is not finite
+// and for options out of range: the message says so.
+PoseCovariance ComputePoseCovariance(const PointsRef& source,
+                                     const PointsRef& target,
+                                     const Rigid3& target_from_source,
+                                     const PoseCovarianceOptions& options);
+
+}  // namespace quatro
+
+#endif  // QUATRO_SOLVERS_CERES_POSE_COVARIANCE_H_

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "solvers/closed_form/exact_yaw.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "solvers/closed_form/yaw.h"
+
+namespace quatro {
+namespace {
+
+// Costs that differ by less, relative to all weight, do by rounding.
+constexpr double kTie = 1e-12;
+
+// One measurement as it stands in (1), divided by c^2 / w.
+struct Arc {
+  double phi = 0.0;           // [rad]
+  double length_error = 0.0;  // (a - b)^2
+  double pull = 0.0;          // 2 a b
+  double weight = 0.0;
+};
+
+struct End {
+  double at = 0.0;
+  bool leaves = false;
+  std::int32_t arc = 0;
+
+  // Closed arcs: who enters comes before who leaves.
+  friend bool operator<(const End& x, const End& y) {
+    return std::tie(x.at, x.leaves, x.arc) < std::tie(y.at, y.leaves, y.arc);
+  }
+};
+
+// The sinusoid of a set of arcs about a reference angle theta0,
+//   g(theta0 + d) = at_reference + cosine (1 - cos d) + sine sin d.
+// The reference moves along with the sweep, so at_reference is a sum of small
+// residuals and nothing cancels.
+//
+// An arc that leaves takes with it the digits below its own last one. So the
+// sums are made anew once what has left outweighs what stays: a long
+// measurement does not drown the short ones, at O(1) an arc where lengths are
+// comparable.
+class Sinusoid {
+ public:
+  explicit Sinusoid(const std::vector<Arc>& arcs)
+      : arcs_(arcs), position_(arcs.size()) {}
+
+  void Enter(std::int32_t arc) {
+    position_[static_cast<std::size_t>(arc)] = set_.size();
+    set_.push_back(arc);
+    Add(arc, 1.0);
+  }
+
+  void Leave(std::int32_t arc) {
+    const std::size_t position = position_[static_cast<std::size_t>(arc)];
+    set_[position] = set_.back();
+    position_[static_cast<std::size_t>(set_.back())] = position;
+    set_.pop_back();
+    Add(arc, -1.0);
+    gone_ += arcs_[static_cast<std::size_t>(arc)].pull;
+    if (!(gone_ > 4.0 * held_) && !set_.empty()) return;
+    at_reference_ = cosine_ = sine_ = held_ = gone_ = 0.0;
+    for (const std::int32_t i : set_) Add(i, 1.0);
+  }
+
+  bool IsEmpty() const { return set_.empty(); }
+
+  void MoveReference(double theta) {
+    const double step = theta - reference_;
+    reference_ = theta;
+    const double half = std::sin(0.5 * step);
+    const double versine = 2.0 * half * half;  // 1 - cos(step)
+    const double s = std::sin(step);
+    at_reference_ += cosine_ * versine + sine_ * s;
+    const double cosine = cosine_ - cosine_ * versine - sine_ * s;
+    sine_ += cosine_ * s - sine_ * versine;
+    cosine_ = cosine;
+  }
+
+  // at_reference + C - |(C, S)|, written so that it does not cancel.
+  double Minimum() const {
+    const double length = std::hypot(cosine_, sine_);
+    if (!(cosine_ > 0.0)) return at_reference_ + cosine_ - length;
+    return at_reference_ - sine_ * sine_ / (cosine_ + length);
+  }
+
+  double Argmin() const { return reference_ + std::atan2(-sine_, cosine_); }
+
+ private:
+  void Add(std::int32_t index, double sign) {
+    const Arc& arc = arcs_[static_cast<std::size_t>(index)];
+    const double u = reference_ - arc.phi;
+    const double half = std::sin(0.5 * u);
+    at_reference_ += sign * (arc.length_error + arc.pull * 2.0 * half * half);
+    cosine_ += sign * arc.pull * std::cos(u);
+    sine_ += sign * arc.pull * std::sin(u);
+    held_ += sign * arc.pull;
+  }
+
+  const std::vector<Arc>& arcs_;
+  std::vector<std::int32_t> set_;
+  std::vector<std::size_t> position_;  // In set_, of who is in it.
+  double reference_ = -M_PI;
+  double at_reference_ = 0.0;
+  double cosine_ = 0.0;
+  double sine_ = 0.0;
+  double held_ = 0.0;  // Pull of the set.
+  double gone_ = 0.0;  // Pull of who left since the sums were made.
+};
+
+Eigen::ArrayXd SquaredResiduals(const PointsRef& source,
+                                const PointsRef& target,
+                                const WeightsRef& noise_bounds,
+                                double yaw) {
+  const double c = std::cos(yaw);
+  const double s = std::sin(yaw);
+  const auto x = target.row(0) - (c * source.row(0) - s * source.row(1));
+  const auto y = target.row(1) - (s * source.row(0) + c * source.row(1));
+  return (x.array().square() + y.array().square()).transpose() /
+         noise_bounds.array().square();
+}
+
+}  // namespace
+
+double TruncatedYawCost(const PointsRef& source,
+                        const PointsRef& target,
+                        const WeightsRef& weights,
+                        const WeightsRef& noise_bounds,
+                        double yaw) {
+  return SquaredResiduals(source, target, noise_bounds, yaw)
+      .min(1.0)
+      .matrix()
+      .dot(weights);
+}
+
+std::optional<ExactYawEstimate> EstimateExactYaw(
+    const PointsRef& source,
+    const PointsRef& target,
+    const WeightsRef& weights,
+    const WeightsRef& noise_bounds) {
+  CHECK_EQ(source.cols(), target.cols());
+  CHECK_EQ(source.cols(), weights.size());
+  CHECK_EQ(source.cols(), noise_bounds.size());
+  if (!source.allFinite() || !target.allFinite() || !weights.allFinite() ||
+      !noise_bounds.allFinite()) {
+    return std::nullopt;
+  }
+
+  std::vector<Arc> arcs;
+  std::vector<End> ends;
+  std::vector<std::int32_t> first_set;  // Of the arcs that hold -pi.
+  double outlier_weight = 0.0;          // Of the arcs that are not in the set.
+  for (Eigen::Index k = 0; k < source.cols(); ++k) {
+    const double sx = source(0, k);
+    const double sy = source(1, k);
+    const double tx = target(0, k);
+    const double ty = target(1, k);
+    const double a = std::hypot(sx, sy);
+    const double b = std::hypot(tx, ty);
+    const double bound2 = noise_bounds[k] * noise_bounds[k];
+    const double scale = weights[k] / bound2;
+    const double pull = 2.0 * a * b;
+    // Equation (2) by the half angle, which keeps its digits for narrow arcs:
+    // sin^2(half width / 2) = (c^2 - (a - b)^2) / (4 a b).
+    const double room = bound2 - (a - b) * (a - b);
+    if (!(weights[k] > 0.0) || !(pull > 0.0) || !(room >= 0.0)) continue;
+    if (!std::isfinite(pull * scale)) continue;  // No angle could be told.
+    const double phi = std::atan2(sx * ty - sy * tx, sx * tx + sy * ty);
+    const auto index = static_cast<std::int32_t>(arcs.size());
+    arcs.push_back({phi, (a - b) * (a - b) * scale, pull * scale, weights[k]});
+    if (room >= 2.0 * pull) {
+      first_set.push_back(index);
+      continue;
+    }
+    outlier_weight += weights[k];
+    const double half_width = 2.0 * std::asin(std::sqrt(room / (2.0 * pull)));
+    double begin = phi - half_width;
+    double end = phi + half_width;
+    if (begin < -M_PI) begin += 2.0 * M_PI;
+    if (end > M_PI) end -= 2.0 * M_PI;
+    ends.push_back({begin, false, index});
+    ends.push_back({end, true, index});
+    if (begin > end) {  // It holds -pi, where the sweep starts.
+      first_set.push_back(index);
+      outlier_weight -= weights[k];
+    }
+  }
+  if (arcs.empty()) return std::nullopt;
+  std::sort(ends.begin(), ends.end());
+
+  Sinusoid sinusoid(arcs);
+  for (const std::int32_t arc : first_set) sinusoid.Enter(arc);
+  const double tie = kTie * weights.sum();
+  double best_cost = std::numeric_limits<double>::infinity();
+  double best_yaw = 0.0;
+  const auto consider = [&] {
+    if (sinusoid.IsEmpty()) return;
+    const double cost = sinusoid.Minimum() + outlier_weight;
+    if (cost < best_cost - tie) {
+      best_cost = cost;
+      best_yaw = sinusoid.Argmin();
+    }
+  };
+  consider();
+  for (const End& end : ends) {
+    const Arc& arc = arcs[static_cast<std::size_t>(end.arc)];
+    sinusoid.MoveReference(end.at);
+    if (end.leaves) {
+      sinusoid.Leave(end.arc);
+      outlier_weight += arc.weight;
+    } else {
+      sinusoid.Enter(end.arc);
+      outlier_weight -= arc.weight;
+    }
+    consider();
+  }
+
+  // Once more from the residuals of the inliers found, which undoes the
+  // rounding of the running sums. It can only lower the cost.
+  ExactYawEstimate estimate;
+  estimate.target_from_source = std::remainder(best_yaw, 2.0 * M_PI);
+  const auto evaluate = [&](double yaw) {
+    return TruncatedYawCost(source, target, weights, noise_bounds, yaw);
+  };
+  estimate.cost = evaluate(estimate.target_from_source);
+  const auto inliers_at = [&](double yaw) {
+    return (SquaredResiduals(source, target, noise_bounds, yaw) <= 1.0).eval();
+  };
+  estimate.is_inlier = inliers_at(estimate.target_from_source);
+  const Weights inlier_weights = estimate.is_inlier.select(
+      weights.array() / noise_bounds.array().square(), 0.0);
+  if (const auto refined = EstimateYaw(source, target, inlier_weights)) {
+    const double cost = evaluate(refined->target_from_source);
+    if (cost < estimate.cost) {
+      estimate.cost = cost;
+      estimate.target_from_source = refined->target_from_source;
+      estimate.is_inlier = inliers_at(estimate.target_from_source);
+    }
+  }
+  estimate.num_inliers = estimate.is_inlier.count();
+  return estimate;
+}
+
+}  // namespace quatro

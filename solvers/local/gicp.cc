@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "solvers/local/gicp.h"
+
+#include <glog/logging.h>
+
+#include <limits>
+#include <sstream>
+
+#include "features/base/stopwatch.h"
+#include "features/normals.h"
+#include "solvers/local/nearest_points.h"
+
+namespace quatro {
+namespace {
+
+// (C + R B R^T)^-1 with a = the normal of C and b = R times that of B:
+// (2 I - s U U^T)^-1 of U = [a b], s = 1 - epsilon, by Woodbury's identity.
+Eigen::Matrix3d Information(const Eigen::Vector3d& a,
+                            const Eigen::Vector3d& b,
+                            double epsilon) {
+  const double twice_by_s = 2.0 / (1.0 - epsilon);
+  const double aa = twice_by_s - a.squaredNorm();
+  const double bb = twice_by_s - b.squaredNorm();
+  const double ab = a.dot(b);
+  const double half_by_det = 0.5 / (aa * bb - ab * ab);
+  const Eigen::Vector3d u = half_by_det * (bb * a + ab * b);
+  const Eigen::Vector3d v = half_by_det * (ab * a + aa * b);
+  Eigen::Matrix3d information = u * a.transpose() + v * b.transpose();
+  information.diagonal().array() += 0.5;
+  return information;
+}
+
+class GicpTerms final : public AlignmentTerms {
+ public:
+  GicpTerms(const AlignmentCloud& source,
+            const AlignmentCloud& target,
+            double max_distance,
+            double epsilon)
+      : source_(source),
+        target_(target),
+        epsilon_(epsilon),
+        nearest_(target.tree, source.tree.points().cols(), max_distance) {}
+
+  const Points& source() const override { return source_.tree.points(); }
+
+  bool Find(Eigen::Index i, const Rigid3& pose, AlignmentTerm* term) override {
+    const Eigen::Index j =
+        nearest_.Find(i, pose * Eigen::Vector3d(source().col(i)));
+    if (j < 0) return false;
+    term->target = target_.tree.points().col(j);
+    term->information = Information(target_.normals.col(j),
+                                    pose.rotation * source_.normals.col(i),
+                                    epsilon_);
+    return true;
+  }
+
+ private:
+  const AlignmentCloud source_;
+  const AlignmentCloud target_;
+  double epsilon_;
+  NearestPoints nearest_;
+};
+
+}  // namespace
+
+bool GicpOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (!(epsilon > 0.0 && epsilon < 1.0)) {
+    problem << "epsilon = " << epsilon << ", must be in (0, 1)";
+  } else if (num_neighbors < 3) {
+    problem << "num_neighbors = " << num_neighbors << ", must be >= 3";
+  } else {
+    return alignment.IsValid(error);
+  }
+  *error = problem.str();
+  return false;
+}
+
+std::unique_ptr<AlignmentTerms> MakeGicpTerms(
+    const AlignmentCloud& source,
+    const AlignmentCloud& target,
+    double max_correspondence_distance,
+    double epsilon) {
+  CHECK_EQ(source.tree.points().cols(), source.normals.cols());
+  CHECK_EQ(target.tree.points().cols(), target.normals.cols());
+  return std::make_unique<GicpTerms>(
+      source, target, max_correspondence_distance, epsilon);
+}
+
+AlignmentSummary SolveGicp(const AlignmentCloud& source,
+                           const AlignmentCloud& target,
+                           const Rigid3& initial_target_from_source,
+                           const GicpOptions& options) {
+  AlignmentSummary summary;
+  if (!options.IsValid(&summary.message)) return summary;
+  Stopwatch stopwatch;
+  const auto terms =
+      MakeGicpTerms(source,
+                    target,
+                    options.alignment.max_correspondence_distance,
+                    options.epsilon);
+  summary =
+      AlignLocally(initial_target_from_source, options.alignment, terms.get());
+  summary.stage_times.push_back({"alignment", stopwatch.Lap()});
+  return summary;
+}
+
+AlignmentSummary SolveGicp(const Points& source,
+                           const Points& target,
+                           const Rigid3& initial_target_from_source,
+                           const GicpOptions& options) {
+  AlignmentSummary summary;
+  if (!options.IsValid(&summary.message)) return summary;
+  return SolveWithNormals(
+      source,
+      target,
+      options.alignment,
+      options.num_neighbors,
+      [&](const AlignmentCloud& from, const AlignmentCloud& onto) {
+        return SolveGicp(from, onto, initial_target_from_source, options);
+      });
+}
+
+Points EstimateNearestNormals(const KdTree& tree,
+                              int num_neighbors,
+                              int num_threads) {
+  return EstimateNormals(
+      tree.points(),
+      FindNearestNeighborhoods(tree, num_neighbors, num_threads),
+      std::numeric_limits<double>::infinity(),
+      Eigen::Vector3d::Zero(),
+      num_threads);
+}
+
+AlignmentSummary SolveWithNormals(
+    const Points& source,
+    const Points& target,
+    const LocalAlignmentOptions& options,
+    int num_neighbors,
+    const std::function<AlignmentSummary(
+        const AlignmentCloud& source, const AlignmentCloud& target)>& solve) {
+  AlignmentSummary summary;
+  if (!CanAlign(source, target, options, &summary)) return summary;
+  Stopwatch stopwatch;
+  const KdTree source_tree(source);
+  const KdTree target_tree(target);
+  const double tree_seconds = stopwatch.Lap();
+  const Points source_normals =
+      EstimateNearestNormals(source_tree, num_neighbors, options.num_threads);
+  const Points target_normals =
+      EstimateNearestNormals(target_tree, num_neighbors, options.num_threads);
+  const double normal_seconds = stopwatch.Lap();
+  summary = solve(AlignmentCloud{source_tree, source_normals},
+                  AlignmentCloud{target_tree, target_normals});
+  summary.stage_times.insert(
+      summary.stage_times.begin(),
+      {{"trees", tree_seconds}, {"normals", normal_seconds}});
+  return summary;
+}
+
+}  // namespace quatro

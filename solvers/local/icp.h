@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// ICP, point to point: solvers/local/local_alignment.h with
+//
+//   q_i = the target's point nearest to R p_i + t,    W_i = I.
+//
+// A kernel's width is a distance [m]. On smooth surfaces points hold each other
+// back, so that it creeps; a plane that slides along itself is held.
+//
+// Source: Besl and McKay, "A Method for Registration of 3-D Shapes", PAMI 1992.
+
+#ifndef QUATRO_SOLVERS_LOCAL_ICP_H_
+#define QUATRO_SOLVERS_LOCAL_ICP_H_
+
+#include <memory>
+
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+#include "features/kd_tree.h"
+#include "solvers/local/local_alignment.h"
+
+namespace quatro {
+
+// All arguments must outlive the terms; the points must be finite.
+std::unique_ptr<AlignmentTerms> MakeIcpTerms(
+    const Points& source,
+    const KdTree& target,
+    double max_correspondence_distance);
+
+// Moves the source onto the target, from the given pose on.
+AlignmentSummary SolveIcp(const Points& source,
+                          const KdTree& target,
+                          const Rigid3& initial_target_from_source,
+                          const LocalAlignmentOptions& options);
+
+// The same without a tree at hand.
+AlignmentSummary SolveIcp(const Points& source,
+                          const Points& target,
+                          const Rigid3& initial_target_from_source,
+                          const LocalAlignmentOptions& options);
+
+}  // namespace quatro
+
+#endif  // QUATRO_SOLVERS_LOCAL_ICP_H_

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "solvers/local/vgicp.h"
+
+#include <glog/logging.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <unordered_map>
+
+#include "features/base/random.h"
+#include "features/base/stopwatch.h"
+
+namespace quatro {
+namespace {
+
+constexpr int kBitsPerAxis = 21;
+constexpr double kMaxCells = 1 << kBitsPerAxis;
+
+struct Voxel {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // Mean of C.
+  double count = 0.0;
+};
+
+struct MixedHash {
+  std::size_t operator()(std::uint64_t key) const { return Mix(key); }
+};
+
+class VoxelMap {
+ public:
+  VoxelMap(const AlignmentCloud& cloud, double voxel_size, double epsilon)
+      : points_(cloud.tree.points()), voxel_size_(voxel_size) {
+    if (points_.cols() == 0) return;
+    first_cell_ = Cell(points_.rowwise().minCoeff());
+    last_cell_ = Cell(points_.rowwise().maxCoeff());
+    CHECK((last_cell_ - first_cell_).maxCoeff() < kMaxCells);
+    // The mean is moved, not summed, so that large coordinates keep digits.
+    for (Eigen::Index j = 0; j < points_.cols(); ++j) {
+      const Eigen::Vector3d point = points_.col(j);
+      Voxel& voxel = voxels_[Key(Cell(point))];
+      voxel.count += 1.0;
+      voxel.mean += (point - voxel.mean) / voxel.count;
+      voxel.covariance += SurfaceCovariance(cloud.normals.col(j), epsilon);
+    }
+    for (auto& [key, voxel] : voxels_) voxel.covariance /= voxel.count;
+  }
+
+  const Voxel* Find(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d cell = Cell(x);
+    if (!((cell - first_cell_).array() >= 0.0).all() ||
+        !((last_cell_ - cell).array() >= 0.0).all()) {
+      return nullptr;
+    }
+    const auto found = voxels_.find(Key(cell));
+    return found == voxels_.end() ? nullptr : &found->second;
+  }
+
+ private:
+  Eigen::Vector3d Cell(const Eigen::Vector3d& x) const {
+    return (x / voxel_size_).array().floor();
+  }
+  std::uint64_t Key(const Eigen::Vector3d& cell) const {
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      key = key << kBitsPerAxis |
+            static_cast<std::uint64_t>(cell[axis] - first_cell_[axis]);
+    }
+    return key;
+  }
+
+  const Points& points_;
+  double voxel_size_;
+  Eigen::Vector3d first_cell_ = Eigen::Vector3d::Constant(1.0);
+  Eigen::Vector3d last_cell_ = Eigen::Vector3d::Constant(-1.0);
+  std::unordered_map<std::uint64_t, Voxel, MixedHash> voxels_;
+};
+
+class VgicpTerms final : public AlignmentTerms {
+ public:
+  VgicpTerms(const AlignmentCloud& source,
+             const AlignmentCloud& target,
+             const VgicpOptions& options)
+      : source_(source),
+        epsilon_(options.epsilon),
+        max_distance_(options.alignment.max_correspondence_distance),
+        voxels_(target, options.voxel_size, options.epsilon) {}
+
+  const Points& source() const override { return source_.tree.points(); }
+
+  bool Find(Eigen::Index i, const Rigid3& pose, AlignmentTerm* term) override {
+    const Eigen::Vector3d moved = pose * Eigen::Vector3d(source().col(i));
+    const Voxel* const voxel = voxels_.Find(moved);
+    if (voxel == nullptr || (voxel->mean - moved).norm() > max_distance_) {
+      return false;
+    }
+    const Eigen::Vector3d normal = pose.rotation * source_.normals.col(i);
+    term->target = voxel->mean;
+    term->information =
+        voxel->count *
+        (voxel->covariance + SurfaceCovariance(normal, epsilon_)).inverse();
+    return true;
+  }
+
+ private:
+  const AlignmentCloud source_;
+  double epsilon_;
+  double max_distance_;
+  VoxelMap voxels_;
+};
+
+// Whether the voxels of a cloud can be numbered.
+bool Fits(const Points& points, double voxel_size) {
+  if (points.cols() == 0) return true;
+  const Eigen::Vector3d width =
+      points.rowwise().maxCoeff() - points.rowwise().minCoeff();
+  return (width.array() / voxel_size < kMaxCells - 2.0).all();
+}
+
+}  // namespace
+
+bool VgicpOptions::IsValid(std::string* error) const {
+  if (!(voxel_size > 0.0 && std::isfinite(voxel_size))) {
+    std::ostringstream problem;
+    problem << "voxel_size = " << voxel_size << ", must be > 0 and finite";
+    *error = problem.str();
+    return false;
+  }
+  return GicpOptions{alignment, epsilon, num_neighbors}.IsValid(error);
+}
+
+std::unique_ptr<AlignmentTerms> MakeVgicpTerms(const AlignmentCloud& source,
+                                               const AlignmentCloud& target,
+                                               const VgicpOptions& options) {
+  CHECK_EQ(source.tree.points().cols(), source.normals.cols());
+  CHECK_EQ(target.tree.points().cols(), target.normals.cols());
+  return std::make_unique<VgicpTerms>(source, target, options);
+}
+
+AlignmentSummary SolveVgicp(const AlignmentCloud& source,
+                            const AlignmentCloud& target,
+                            const Rigid3& initial_target_from_source,
+                            const VgicpOptions& options) {
+  AlignmentSummary summary;
+  if (!options.IsValid(&summary.message)) return summary;
+  if (!Fits(target.tree.points(), options.voxel_size)) {
+    summary.message = "the target is more than 2^21 voxels wide";
+    return summary;
+  }
+  Stopwatch stopwatch;
+  const auto terms = MakeVgicpTerms(source, target, options);
+  const double voxel_seconds = stopwatch.Lap();
+  summary =
+      AlignLocally(initial_target_from_source, options.alignment, terms.get());
+  summary.stage_times.push_back({"voxels", voxel_seconds});
+  summary.stage_times.push_back({"alignment", stopwatch.Lap()});
+  return summary;
+}
+
+AlignmentSummary SolveVgicp(const Points& source,
+                            const Points& target,
+                            const Rigid3& initial_target_from_source,
+                            const VgicpOptions& options) {
+  AlignmentSummary summary;
+  if (!options.IsValid(&summary.message)) return summary;
+  return SolveWithNormals(
+      source,
+      target,
+      options.alignment,
+      options.num_neighbors,
+      [&](const AlignmentCloud& from, const AlignmentCloud& onto) {
+        return SolveVgicp(from, onto, initial_target_from_source, options);
+      });
+}
+
+}  // namespace quatro
