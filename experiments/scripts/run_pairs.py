@@ -49,7 +49,7 @@ RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "ya
                   "translation_error_m", *SUCCESS, "wrong_but_registered", *COUNTS, "total_ms",
                   "probability", "features", "stages_ms", "peak_mb")
 
-DEFAULT_PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build/bin/quatro_register"
+DEFAULT_PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/bin/quatro_register"
 
 Pair = collections.namedtuple("Pair", "set source target pose")  # pose: (R, t) or None
 

@@ -11,10 +11,10 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 
-import {matrixOf} from '../../experiments/report/page/motion.js';
-import {roleOf} from '../../experiments/report/page/match_stages.js';
-import {AGREEING, CONSISTENT, decodeView, drawnPose} from '../../experiments/report/page/view_data.js';
-import {Browser} from '../support/browser.mjs';
+import {matrixOf} from '../../../experiments/report/page/motion.js';
+import {roleOf} from '../../../experiments/report/page/match_stages.js';
+import {AGREEING, CONSISTENT, decodeView, drawnPose} from '../../../experiments/report/page/view_data.js';
+import {Browser} from '../../support/browser.mjs';
 
 const [bin, chromium] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), 'quatro-report-'));

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "experiments" / "draw_experiment.py"
+SCRIPT = pathlib.Path(__file__).resolve().parents[3] / "experiments" / "scripts" / "draw_experiment.py"
 sys.path.insert(0, str(SCRIPT.parent))
 import draw_experiment  # noqa: E402
 

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
+SCRIPTS = pathlib.Path(__file__).resolve().parents[3] / "experiments" / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 import calibrate_verdict  # noqa: E402
 import draw_gnc_film  # noqa: E402

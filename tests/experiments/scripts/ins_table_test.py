@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "experiments" / "ins_table.py"
+SCRIPT = pathlib.Path(__file__).resolve().parents[3] / "experiments" / "scripts" / "ins_table.py"
 sys.path.insert(0, str(SCRIPT.parent))
 import ins_table  # noqa: E402
 

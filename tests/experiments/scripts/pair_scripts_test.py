@@ -17,7 +17,7 @@ import time
 import unittest
 
 sys.dont_write_bytecode = True
-SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
+SCRIPTS = pathlib.Path(__file__).resolve().parents[3] / "experiments" / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 import compare_kitti  # noqa: E402
 import list_wrong_pairs  # noqa: E402

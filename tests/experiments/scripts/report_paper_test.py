@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "experiments" / "report_paper.py"
+SCRIPT = pathlib.Path(__file__).resolve().parents[3] / "experiments" / "scripts" / "report_paper.py"
 
 TABLE_ONE = """method,origin,00,00 low,00 high,all,all low,all high
 quatro,measured,{quatro},90,100,{quatro},90,100

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from unittest import mock
 
-SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
+SCRIPTS = pathlib.Path(__file__).resolve().parents[3] / "experiments" / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 
 import script_support as support  # noqa: E402

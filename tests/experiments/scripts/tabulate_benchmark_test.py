@@ -9,8 +9,8 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "experiments" / "tabulate_benchmark.py"
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+SCRIPT = ROOT / "experiments" / "scripts" / "tabulate_benchmark.py"
 
 
 def entry(name, time, unit="ms", **others):
@@ -108,7 +108,7 @@ class TabulateBenchmarkTest(unittest.TestCase):
                            for stage in ("graph", "arc") for n in (10, 100)])
         picture = self.folder / "growth.png"
         run = self.run_script(path, f"--picture={picture}",
-                              wrapped=[str(ROOT / "experiments" / "with_python.sh"), "matplotlib"])
+                              wrapped=[str(ROOT / "experiments" / "scripts" / "with_python.sh"), "matplotlib"])
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
