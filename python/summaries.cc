@@ -66,7 +66,7 @@ std::string Represent(const char* name, const Summary& summary) {
     text += Print(", probability=%.2f, ", verdict.probability, 0, 0, 0) +
             Describe(*solution.target_from_source);
   }
-  return text + ", matches=" + std::to_string(solution.num_distinct) +
+  return text + ", matches=" + std::to_string(solution.num_matches) +
          ", inliers=" + std::to_string(solution.num_translation_inliers) +
          ": " + verdict.reason + ")";
 }
@@ -78,10 +78,11 @@ py::object CovarianceOf(const PoseSummary& solution) {
   return Copy(*solution.covariance->covariance);
 }
 
-py::list UnheldOf(const PoseSummary& solution) {
+py::list UnobservableOf(const PoseSummary& solution) {
   py::list texts;
   if (!solution.covariance) return texts;
-  for (const UnheldDirection& direction : solution.covariance->unheld) {
+  for (const UnobservableDirection& direction :
+       solution.covariance->unobservable) {
     texts.append(direction.Describe());
   }
   return texts;
@@ -203,9 +204,9 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
       "(6, 6) float64 or None: of the pose, rotation [rad] then translation "
       "[m], in the target frame. None where a direction is not held.",
       [](const Summary& s) { return CovarianceOf(SolutionOf(s)); });
-  add("unheld_directions",
+  add("unobservable_directions",
       "list of str: directions that the data do not hold.",
-      [](const Summary& s) { return UnheldOf(SolutionOf(s)); });
+      [](const Summary& s) { return UnobservableOf(SolutionOf(s)); });
   type->def_property_readonly(
       "inliers",
       [](const py::object& self) {
@@ -222,7 +223,7 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
       "(K,) int64: rows of the matches that pruning kept. A view.");
   add("num_matches",
       "int: matches, copies counted once.",
-      [](const Summary& s) { return SolutionOf(s).num_distinct; });
+      [](const Summary& s) { return SolutionOf(s).num_matches; });
   add("num_inliers",
       "int: of these, within the noise bound.",
       [](const Summary& s) { return SolutionOf(s).num_translation_inliers; });

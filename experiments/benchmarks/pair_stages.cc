@@ -376,7 +376,7 @@ void AddVerdict(const Adder& add) {
     };
     EvidenceOptions evidence;
     evidence.voxel_size = pair.options.front_end.voxel_size;
-    StructureHoldOptions hold = pair.options.structure_hold;
+    SurfaceObservabilityOptions hold = pair.options.surface_observability;
     hold.max_distance = evidence.MaxDistance();
     const SurfaceCloud source = as_surface(pair.matched.source);
     const SurfaceCloud target = as_surface(pair.matched.target);
@@ -384,8 +384,8 @@ void AddVerdict(const Adder& add) {
     const int threads = pair.options.num_threads;
     const MutualContacts contacts =
         FindMutualContacts(source, target, pose, hold.max_distance, threads);
-    benchmark::DoNotOptimize(
-        MeasureStructureHold(source, target, pose, contacts, hold, threads));
+    benchmark::DoNotOptimize(MeasureSurfaceObservability(
+        source, target, pose, contacts, hold, threads));
     benchmark::DoNotOptimize(MeasureGeometricEvidence(
         source, target, pose, contacts, evidence, threads));
   });

@@ -20,7 +20,7 @@ PoseSummary SolveByPeer(const PointsRef& source,
                         const std::function<Rigid3()>& solve) {
   PoseSummary summary;
   summary.num_needed = kNumNeeded;
-  summary.num_distinct = source.cols();
+  summary.num_matches = source.cols();
   if (!source.allFinite() || !target.allFinite()) {
     summary.message = "a matched point is not finite";
     return summary;

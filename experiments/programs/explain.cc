@@ -122,7 +122,7 @@ std::string ExplainFrontEnd(const Json& report) {
              Number(counts["mutual_matches"]) +
                  " points are each other's nearest by FPFH; the tuple test "
                  "keeps " +
-                 Number(counts["correspondences"]) + " of their matches");
+                 Number(counts["matches"]) + " of their matches");
 }
 
 std::string ExplainSolver(const Json& report) {
@@ -130,8 +130,8 @@ std::string ExplainSolver(const Json& report) {
   std::string text;
   if (HasMatches(report)) {
     text += Paragraph("consensus",
-                      Number(counts["clique"]) + " of " +
-                          Number(counts["correspondences"]) +
+                      Number(counts["consistent"]) + " of " +
+                          Number(counts["matches"]) +
                           " distinct matches are consistent with each other" +
                           ByChance(report, "clique"));
   }
@@ -177,10 +177,10 @@ std::string ExplainSolver(const Json& report) {
                           Number(refinement["moved_deg"]) +
                           " deg: " + refinement["message"].get<std::string>());
   }
-  const Json unheld = At(report, {"unheld_directions"});
-  if (unheld.is_array() && !unheld.empty()) {
+  const Json unobservable = At(report, {"unobservable_directions"});
+  if (unobservable.is_array() && !unobservable.empty()) {
     std::string directions;
-    for (const Json& direction : unheld) {
+    for (const Json& direction : unobservable) {
       if (!directions.empty()) directions += "; ";
       directions += direction.is_string()
                         ? direction.get<std::string>()
@@ -197,9 +197,9 @@ std::string ExplainEvidence(const Json& report) {
   if (rival.is_object()) {
     text +=
         Paragraph("rival",
-                  "the best other pose has " + Number(rival["agreeing"]) +
+                  "the best other pose has " + Number(rival["inliers"]) +
                       " matches against " +
-                      Number(report["counts"]["agreeing"]) + ", a margin of " +
+                      Number(report["counts"]["inliers"]) + ", a margin of " +
                       Number(rival["margin"], 2) + " standard deviations");
   }
   const Json geometry = At(report, {"evidence", "geometry"});
@@ -222,7 +222,7 @@ std::vector<std::string> Advice(const Json& report) {
   std::vector<std::string> advice;
   if (report["status"] == "registered") return advice;
   const Json counts = At(report, {"counts"});
-  const double num_matches = NumberOr(At(counts, {"correspondences"}), 0.0);
+  const double num_matches = NumberOr(At(counts, {"matches"}), 0.0);
   const double num_mutual = NumberOr(At(counts, {"mutual_matches"}), 0.0);
   const bool has_clouds = counts.contains("mutual_matches");
   if (has_clouds && num_matches < kFewMatches) {

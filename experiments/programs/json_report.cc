@@ -100,8 +100,8 @@ Json Describe(const std::optional<YawCertificate>& certificate) {
           {"gap", OrNull(certificate->gap)}};
 }
 
-Json Describe(const Rival& rival) {
-  return {{"agreeing", rival.num_agreeing},
+Json Describe(const MatchRival& rival) {
+  return {{"inliers", rival.num_inliers},
           {"margin", rival.margin},
           {"same_matches", rival.has_same_matches},
           {"target_from_source", Rows(rival.target_from_source)}};
@@ -109,7 +109,7 @@ Json Describe(const Rival& rival) {
 
 Json Describe(const GeometricEvidence& evidence) {
   const auto& direction = evidence.weakest_direction;
-  const RivalPose& rival = evidence.rival;
+  const GeometricRival& rival = evidence.rival;
   return {
       {"structure_overlap", evidence.structure_overlap},
       {"median_residual_voxels", evidence.median_residual},
@@ -133,7 +133,7 @@ Json DescribeEvidence(const Verdict& verdict) {
     evidence["false_alarms"].push_back(
         {{"stage", alarms.stage},
          {"tested", alarms.num_tested},
-         {"agreeing", alarms.num_agreeing},
+         {"inliers", alarms.num_inliers},
          {"chance", alarms.chance},
          {"log10_false_alarms", alarms.log10_false_alarms}});
   }
@@ -148,23 +148,23 @@ Json DescribeEvidence(const Verdict& verdict) {
   return evidence;
 }
 
-const char* Name(NotHeld reason) {
+const char* Name(UnobservableReason reason) {
   switch (reason) {
-    case NotHeld::kNoData:
+    case UnobservableReason::kNoData:
       return "no_data";
-    case NotHeld::kWithinNoise:
+    case UnobservableReason::kWithinNoise:
       return "within_noise";
-    case NotHeld::kUncertain:
+    case UnobservableReason::kUncertain:
       return "uncertain";
-    case NotHeld::kAssumed:
+    case UnobservableReason::kAssumed:
       return "assumed";
-    case NotHeld::kNoSurface:
+    case UnobservableReason::kNoSurface:
       break;
   }
   return "no_surface";
 }
 
-Json Describe(const UnheldDirection& direction) {
+Json Describe(const UnobservableDirection& direction) {
   const Eigen::Vector3d& a = direction.axis;
   const Eigen::Vector3d& p = direction.point;
   const bool is_rotation = direction.freedom == Freedom::kRotation;
@@ -176,12 +176,12 @@ Json Describe(const UnheldDirection& direction) {
           {"text", direction.Describe()}};
 }
 
-// `covariance`, `unheld_directions`, and what they rest on.
+// `covariance`, `unobservable_directions`, and what they rest on.
 void AddUncertainty(const std::optional<PoseCovariance>& uncertainty,
                     Json* report) {
   (*report)["covariance"] = nullptr;
   (*report)["covariance_about"] = nullptr;  // The same about the inliers.
-  (*report)["unheld_directions"] = Json::array();
+  (*report)["unobservable_directions"] = Json::array();
   (*report)["match_sigma"] = nullptr;
   if (!uncertainty) return;
   if (uncertainty->covariance) {
@@ -191,8 +191,8 @@ void AddUncertainty(const std::optional<PoseCovariance>& uncertainty,
         {"center", {c.x(), c.y(), c.z()}},
         {"covariance", Rows(*uncertainty->covariance_at_center)}};
   }
-  for (const UnheldDirection& direction : uncertainty->unheld) {
-    (*report)["unheld_directions"].push_back(Describe(direction));
+  for (const UnobservableDirection& direction : uncertainty->unobservable) {
+    (*report)["unobservable_directions"].push_back(Describe(direction));
   }
   (*report)["match_sigma"] = {
       {"assumed", uncertainty->sigma},
@@ -226,12 +226,12 @@ Json MakeReport(const std::string& method,
           ? Rows(*solution.unpolished_target_from_source)
           : Json(nullptr);
   if (solution.scale != 1.0) report["scale"] = solution.scale;
-  report["counts"] = {{"correspondences", solution.num_distinct},
-                      {"clique", solution.num_consistent},
+  report["counts"] = {{"matches", solution.num_matches},
+                      {"consistent", solution.num_consistent},
                       {"tims", solution.num_tims},
                       {"rotation_inliers", solution.num_rotation_inliers},
                       {"translation_inliers", solution.num_translation_inliers},
-                      {"agreeing", verdict.num_agreeing}};
+                      {"inliers", verdict.num_inliers}};
   report["evidence"] = DescribeEvidence(verdict);
   AddUncertainty(solution.covariance, &report);
   report["certificate"] = Describe(solution.certificate);
@@ -257,11 +257,11 @@ Json MakeReport(const std::string& method,
   return report;
 }
 
-Json Describe(const std::optional<StructureHold>& hold) {
+Json Describe(const std::optional<SurfaceObservability>& hold) {
   if (!hold) return nullptr;
   const Eigen::Vector3d& axis = hold->weakest_level_axis;
-  return {{"points_met", hold->num_met},
-          {"structure_met", hold->num_structure},
+  return {{"points_overlapping", hold->num_overlapping},
+          {"structure_overlapping", hold->num_structure},
           {"weakest_level_axis", {axis.x(), axis.y(), axis.z()}},
           {"weakest_level_share", hold->weakest_level_share}};
 }

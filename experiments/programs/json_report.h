@@ -25,8 +25,8 @@ using Json = nlohmann::ordered_json;
 
 // What both programs report: status and reason (the verdict's), message (the
 // estimator's), target_from_source (4 rows of 4, or null), yaw_deg, counts,
-// covariance (6 rows of 6, rotation [rad] first, or null), unheld_directions,
-// match_sigma [m], certificate, timings_ms, method.
+// covariance (6 rows of 6, rotation [rad] first, or null),
+// unobservable_directions, match_sigma [m], certificate, timings_ms, method.
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
                 const PoseSummary& solution,
@@ -34,7 +34,7 @@ Json MakeReport(const std::string& method,
                 double total_seconds);
 
 // What the surfaces hold of the position on the ground, or null.
-Json Describe(const std::optional<StructureHold>& hold);
+Json Describe(const std::optional<SurfaceObservability>& hold);
 
 // Method, termination, message, whether it was accepted, iterations, inliers,
 // moved_m and moved_deg, cost, conditioning and the pose before. Null if it was

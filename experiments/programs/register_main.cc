@@ -244,7 +244,8 @@ int Main(int argc, char** argv) {
   if (!cloud_solver) {
     report["counts"]["mutual_matches"] = summary.num_mutual_matches;
   }
-  report["structure_hold"] = quatro::Describe(summary.structure_hold);
+  report["surface_observability"] =
+      quatro::Describe(summary.surface_observability);
   report["refinement"] = quatro::DescribeRefinement(summary.refinement);
   report["parameters"] = {{"source", FLAGS_source},
                           {"target", FLAGS_target},

@@ -17,7 +17,7 @@ MatchStages FindMatchStages(const RegistrationSummary& summary) {
     stages.fates[static_cast<std::size_t>(i)] |= kIsConsistent;
   }
   for (const Eigen::Index i : solution.translation_inliers) {
-    stages.fates[static_cast<std::size_t>(i)] |= kIsAgreeing;
+    stages.fates[static_cast<std::size_t>(i)] |= kIsInlier;
   }
   if (solution.match_weights.empty()) return stages;
   stages.weights.resize(num_matches);
@@ -35,7 +35,7 @@ StageCounts CountStages(const MatchStages& stages,
     if (!is_counted.empty() && !is_counted[i]) continue;
     ++counts.matches;
     if (stages.fates[i] & kIsConsistent) ++counts.consistent;
-    if (stages.fates[i] & kIsAgreeing) ++counts.agreeing;
+    if (stages.fates[i] & kIsInlier) ++counts.inliers;
     if (!stages.weights.empty() && stages.weights[i] >= 0.5) ++counts.weighted;
   }
   return counts;

@@ -14,7 +14,7 @@ namespace quatro {
 // Bits of a match's fate. One that agrees with the pose need not be consistent:
 // the pose is judged on all of them.
 inline constexpr int kIsConsistent = 1;
-inline constexpr int kIsAgreeing = 2;
+inline constexpr int kIsInlier = 2;
 
 struct MatchStages {
   std::vector<int> fates;  // Of each match.
@@ -30,7 +30,7 @@ struct StageCounts {
   long matches = 0;
   long consistent = 0;
   long weighted = 0;  // Of weight 0.5 or more.
-  long agreeing = 0;
+  long inliers = 0;
 };
 
 // Of the matches for which `is_counted`, or of all if it is empty.

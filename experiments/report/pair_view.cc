@@ -81,7 +81,7 @@ Json Describe(const StageCounts& counts) {
   return {{"matches", counts.matches},
           {"consistent", counts.consistent},
           {"weighted", counts.weighted},
-          {"agreeing", counts.agreeing}};
+          {"inliers", counts.inliers}};
 }
 
 Json DescribeStages(const RegistrationSummary& summary,
@@ -105,10 +105,10 @@ Json DescribeStages(const RegistrationSummary& summary,
       {"right", nullptr}};
   if (pair.true_target_from_source) {
     std::vector<bool> is_right(fates.size());
-    for (const Eigen::Index i : FindAgreeing(summary.matched_source,
-                                             summary.matched_target,
-                                             *pair.true_target_from_source,
-                                             pair.noise_bound)) {
+    for (const Eigen::Index i : FindInliers(summary.matched_source,
+                                            summary.matched_target,
+                                            *pair.true_target_from_source,
+                                            pair.noise_bound)) {
       is_right[static_cast<std::size_t>(i)] = true;
     }
     stages["right"] = Describe(CountStages(found, is_right));

@@ -40,8 +40,8 @@ from script_support import (BadInput, Parser, check_writable, parse_number, read
                             split_flags, write_atomically)
 
 POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
-COUNTS = ("source_voxels", "target_voxels", "correspondences", "clique", "rotation_inliers",
-          "translation_inliers", "agreeing")
+COUNTS = ("source_voxels", "target_voxels", "matches", "consistent", "rotation_inliers",
+          "translation_inliers", "inliers")
 # Within so many metres and degrees (the whole rotation), registered or not.
 SUCCESS = {"success_2m_10deg": (2.0, 10.0), "success_0.6m_5deg": (0.6, 5.0),
            "success_0.3m_1deg": (0.3, 1.0)}

@@ -107,10 +107,10 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
 
   Stopwatch stopwatch;
   const DistinctMatches matches = FindDistinctMatches(source, target);
-  summary.num_distinct = matches.source.cols();
+  summary.num_matches = matches.source.cols();
   summary.termination = PoseTermination::kInsufficient;
   std::vector<TimPair> pairs;
-  if (summary.num_distinct >= 2) pairs = FindGatedPairs(matches, options);
+  if (summary.num_matches >= 2) pairs = FindGatedPairs(matches, options);
   summary.num_tims = static_cast<Eigen::Index>(pairs.size());
   summary.stage_times.push_back({"pairs", stopwatch.Lap()});
 
@@ -125,21 +125,21 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   if (!yaw) {
     std::ostringstream message;
     message << "a heading needs two matches that keep their distance, of "
-            << summary.num_distinct << " no two were found that do";
+            << summary.num_matches << " no two were found that do";
     summary.message = message.str();
     return summary;
   }
   summary.num_rotation_inliers = yaw->num_inliers;
 
   // In pairs by the hundred thousand, if many matches are right.
-  std::vector<bool> agrees(static_cast<std::size_t>(summary.num_distinct));
+  std::vector<bool> agrees(static_cast<std::size_t>(summary.num_matches));
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!yaw->is_inlier[static_cast<Eigen::Index>(k)]) continue;
     agrees[static_cast<std::size_t>(pairs[k].first)] = true;
     agrees[static_cast<std::size_t>(pairs[k].second)] = true;
   }
   std::vector<Eigen::Index> candidates;
-  for (Eigen::Index i = 0; i < summary.num_distinct; ++i) {
+  for (Eigen::Index i = 0; i < summary.num_matches; ++i) {
     if (agrees[static_cast<std::size_t>(i)]) candidates.push_back(i);
   }
   summary.num_consistent = static_cast<Eigen::Index>(candidates.size());
@@ -154,25 +154,25 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
           ->target_from_source;
 
   // Once more from all that agree, and kept if no fewer do then.
-  std::vector<Eigen::Index> agreeing = FindAgreeing(
+  std::vector<Eigen::Index> inliers = FindInliers(
       matches.source, matches.target, target_from_source, options.noise_bound);
   const auto again = EstimateYawTranslation(
-      Columns(matches.source, agreeing),
-      Columns(matches.target, agreeing),
-      Weights::Ones(static_cast<Eigen::Index>(agreeing.size())));
+      Columns(matches.source, inliers),
+      Columns(matches.target, inliers),
+      Weights::Ones(static_cast<Eigen::Index>(inliers.size())));
   if (again) {
-    std::vector<Eigen::Index> agreeing_again =
-        FindAgreeing(matches.source,
-                     matches.target,
-                     again->target_from_source,
-                     options.noise_bound);
-    if (agreeing_again.size() >= agreeing.size()) {
+    std::vector<Eigen::Index> inliers_again =
+        FindInliers(matches.source,
+                    matches.target,
+                    again->target_from_source,
+                    options.noise_bound);
+    if (inliers_again.size() >= inliers.size()) {
       target_from_source = again->target_from_source;
-      agreeing = std::move(agreeing_again);
+      inliers = std::move(inliers_again);
     }
   }
-  summary.num_translation_inliers = static_cast<Eigen::Index>(agreeing.size());
-  summary.translation_inliers = InputColumns(matches, agreeing);
+  summary.num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
+  summary.translation_inliers = InputColumns(matches, inliers);
   summary.target_from_source = target_from_source;
   summary.model = PoseModel::kYawTranslation;
   summary.termination = PoseTermination::kSolved;

@@ -38,20 +38,20 @@ std::vector<Eigen::Index> FindWithinBall(const PointsRef& source,
   return within;
 }
 
-std::vector<Eigen::Index> FindAgreeing(const PointsRef& source,
-                                       const PointsRef& target,
-                                       const Rigid3& target_from_source,
-                                       double noise_bound) {
+std::vector<Eigen::Index> FindInliers(const PointsRef& source,
+                                      const PointsRef& target,
+                                      const Rigid3& target_from_source,
+                                      double noise_bound) {
   CHECK_EQ(source.cols(), target.cols());
-  std::vector<Eigen::Index> agreeing;
+  std::vector<Eigen::Index> inliers;
   for (Eigen::Index i = 0; i < source.cols(); ++i) {
     const Eigen::Vector3d moved =
         target_from_source * Eigen::Vector3d(source.col(i));
     if ((target.col(i) - moved).cwiseAbs().maxCoeff() <= noise_bound) {
-      agreeing.push_back(i);
+      inliers.push_back(i);
     }
   }
-  return agreeing;
+  return inliers;
 }
 
 }  // namespace quatro

@@ -31,10 +31,10 @@ std::vector<Eigen::Index> FindWithinBall(const PointsRef& source,
                                          double noise_bound);
 
 // The columns with |q_i - R p_i - t| <= b on each axis, in ascending order.
-std::vector<Eigen::Index> FindAgreeing(const PointsRef& source,
-                                       const PointsRef& target,
-                                       const Rigid3& target_from_source,
-                                       double noise_bound);
+std::vector<Eigen::Index> FindInliers(const PointsRef& source,
+                                      const PointsRef& target,
+                                      const Rigid3& target_from_source,
+                                      double noise_bound);
 
 }  // namespace quatro
 

@@ -64,10 +64,10 @@ DistinctMatches FindDistinctMatches(const PointsRef& source,
     }
     distinct.columns.back().push_back(i);
   }
-  const auto num_distinct = static_cast<Eigen::Index>(distinct.columns.size());
-  distinct.source.resize(3, num_distinct);
-  distinct.target.resize(3, num_distinct);
-  for (Eigen::Index k = 0; k < num_distinct; ++k) {
+  const auto num_matches = static_cast<Eigen::Index>(distinct.columns.size());
+  distinct.source.resize(3, num_matches);
+  distinct.target.resize(3, num_matches);
+  for (Eigen::Index k = 0; k < num_matches; ++k) {
     const Eigen::Index i =
         distinct.columns[static_cast<std::size_t>(k)].front();
     distinct.source.col(k) = source.col(i);

@@ -145,11 +145,11 @@ FgrSummary SolveFgr(const PointsRef& source,
 
   Stopwatch stopwatch;
   const DistinctMatches matches = FindDistinctMatches(source, target);
-  summary.num_distinct = matches.source.cols();
+  summary.num_matches = matches.source.cols();
   summary.termination = PoseTermination::kInsufficient;
-  if (summary.num_distinct < kNumNeeded) {
+  if (summary.num_matches < kNumNeeded) {
     std::ostringstream message;
-    message << "a pose needs three matches, there are " << summary.num_distinct;
+    message << "a pose needs three matches, there are " << summary.num_matches;
     summary.message = message.str();
     return summary;
   }
@@ -209,7 +209,7 @@ FgrSummary SolveFgr(const PointsRef& source,
   summary.stage_times.push_back({"fgr", stopwatch.Lap()});
   if (summary.num_consistent < kNumNeeded) {
     std::ostringstream message;
-    message << "of " << summary.num_distinct << " matches "
+    message << "of " << summary.num_matches << " matches "
             << summary.num_consistent
             << " agree with the pose found, three are needed";
     summary.message = message.str();

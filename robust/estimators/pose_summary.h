@@ -85,7 +85,7 @@ struct PoseSummary {
   // gave to a difference it is part of; empty if the estimator weighs none.
   std::vector<double> match_weights;
 
-  Eigen::Index num_distinct = 0;
+  Eigen::Index num_matches = 0;
   Eigen::Index num_consistent = 0;
   Eigen::Index num_tims = 0;
   Eigen::Index num_rotation_inliers = 0;  // TIMs within their bound.

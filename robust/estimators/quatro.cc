@@ -167,7 +167,7 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   }
 
   const DistinctMatches matches = FindDistinctMatches(source, target);
-  summary.num_distinct = matches.source.cols();
+  summary.num_matches = matches.source.cols();
   const std::vector<Eigen::Index> consistent = FindConsistent(
       matches, PruningFrom(options), options.num_threads, &summary.stage_times);
   summary.num_consistent = static_cast<Eigen::Index>(consistent.size());
@@ -183,7 +183,7 @@ QuatroSummary SolveQuatro(const PointsRef& source,
     summary.termination = PoseTermination::kInsufficient;
     std::ostringstream message;
     message << "a heading needs two consistent matches, of "
-            << summary.num_distinct << " there is " << summary.num_consistent;
+            << summary.num_matches << " there is " << summary.num_consistent;
     summary.message = message.str();
     return summary;
   }
@@ -245,7 +245,7 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   }
   if (options.recover_translation || options.polish) {
     inliers =
-        FindAgreeing(matches.source, matches.target, pose, options.noise_bound);
+        FindInliers(matches.source, matches.target, pose, options.noise_bound);
   }
   if (options.crosscheck) {
     CrosscheckPose(Columns(matches.source, inliers),

@@ -289,12 +289,12 @@ RansacSummary SolveRansac(const PointsRef& source,
 
   Stopwatch stopwatch;
   const Problem problem = MakeProblem(source, target, normals);
-  summary.num_distinct = problem.matches.source.cols();
+  summary.num_matches = problem.matches.source.cols();
   summary.termination = PoseTermination::kInsufficient;
   std::optional<Best> best;
   const MatchScorer scorer(
       problem.matches.source, problem.matches.target, bound);
-  if (summary.num_distinct >= num_needed) {
+  if (summary.num_matches >= num_needed) {
     best = Search(problem, scorer, options, &summary);
   }
   std::vector<Eigen::Index> inliers;
@@ -310,12 +310,12 @@ RansacSummary SolveRansac(const PointsRef& source,
   const bool are_too_few = summary.num_consistent < num_needed;
   // Of matches none of whose samples holds a pose.
   const bool are_all_alike =
-      are_too_few && summary.num_distinct >= num_needed &&
+      are_too_few && summary.num_matches >= num_needed &&
       !AreHeld(problem, AllColumns(scorer), options.minimal);
   if (are_too_few && !are_all_alike) {
     std::ostringstream message;
     message << "needs " << num_needed << " matches that agree on a pose, of "
-            << summary.num_distinct << " none such were found in "
+            << summary.num_matches << " none such were found in "
             << summary.num_iterations << " samples";
     summary.message = message.str();
     return summary;

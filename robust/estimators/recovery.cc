@@ -56,8 +56,8 @@ Rigid3 RecoverTranslation(const PointsRef& source,
 
   std::vector<Rigid3> candidates = {target_from_source};
   const auto add_with_height_for = [&](double x, double y) {
-    const auto agreeing = near(1, y, near(0, x, all));
-    if (const auto z = consensus(2, agreeing)) {
+    const auto inliers = near(1, y, near(0, x, all));
+    if (const auto z = consensus(2, inliers)) {
       candidates.push_back(
           {target_from_source.rotation, Eigen::Vector3d(x, y, z->value)});
     }

@@ -79,7 +79,7 @@ TeaserSummary SolveTeaser(const PointsRef& source,
 
   Stopwatch stopwatch;
   DistinctMatches matches = FindDistinctMatches(source, target);
-  summary.num_distinct = matches.source.cols();
+  summary.num_matches = matches.source.cols();
   if (options.estimate_scale) {
     const auto scale = EstimateScale(matches, options);
     if (!scale) {
@@ -104,7 +104,7 @@ TeaserSummary SolveTeaser(const PointsRef& source,
     summary.termination = PoseTermination::kInsufficient;
     std::ostringstream message;
     message << "a rotation needs three consistent matches, of "
-            << summary.num_distinct << " there are " << summary.num_consistent;
+            << summary.num_matches << " there are " << summary.num_consistent;
     summary.message = message.str();
     return summary;
   }

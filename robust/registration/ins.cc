@@ -115,7 +115,7 @@ void Fuse(const PointsRef& source,
   summary->model = PoseModel::kRigid;
   summary->vertical = prior;
   const auto inliers =
-      FindAgreeing(matches.source, matches.target, *fused, noise_bound);
+      FindInliers(matches.source, matches.target, *fused, noise_bound);
   summary->num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
   summary->translation_inliers = InputColumns(matches, inliers);
 }

@@ -122,12 +122,12 @@ RefinementSummary Refine(const AlignmentCloud& source,
     summary.message = "the refined pose is too far from the one before";
     return summary;
   }
-  const auto agreeing = [&](const Rigid3& pose) {
+  const auto count_inliers = [&](const Rigid3& pose) {
     return static_cast<double>(
         CountAgreeing(matched_source, matched_target, pose, 2.0 * noise_bound));
   };
-  if (agreeing(refined) <
-      options.min_kept_matches * agreeing(target_from_source)) {
+  if (count_inliers(refined) <
+      options.min_kept_matches * count_inliers(target_from_source)) {
     summary.message = "the refined pose contradicts the matches";
     return summary;
   }

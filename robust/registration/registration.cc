@@ -29,17 +29,17 @@ std::optional<GeometricEvidence> WeighGeometry(
       AsSurface(clouds.target, frames.level_from_target.row(2).transpose());
   EvidenceOptions evidence;
   evidence.voxel_size = options.front_end.voxel_size;
-  StructureHoldOptions hold = options.structure_hold;
+  SurfaceObservabilityOptions hold = options.surface_observability;
   hold.max_distance = evidence.MaxDistance();
   const MutualContacts contacts = FindMutualContacts(
       source, target, pose, hold.max_distance, options.num_threads);
-  summary->structure_hold = MeasureStructureHold(
+  summary->surface_observability = MeasureSurfaceObservability(
       source, target, pose, contacts, hold, options.num_threads);
-  if (summary->structure_hold) {
-    auto& unheld = summary->solution.covariance->unheld;
-    unheld.insert(unheld.end(),
-                  summary->structure_hold->unheld.begin(),
-                  summary->structure_hold->unheld.end());
+  if (summary->surface_observability) {
+    auto& unobservable = summary->solution.covariance->unobservable;
+    unobservable.insert(unobservable.end(),
+                        summary->surface_observability->unobservable.begin(),
+                        summary->surface_observability->unobservable.end());
   }
   return MeasureGeometricEvidence(
       source, target, pose, contacts, evidence, options.num_threads);
@@ -54,7 +54,7 @@ bool RegistrationOptions::IsValid(std::string* error) const {
   }
   return front_end.IsValid(error) && quatro.IsValid(error) &&
          ins.IsValid(error) && verdict.IsValid(error) &&
-         covariance.IsValid(error) && structure_hold.IsValid(error) &&
+         covariance.IsValid(error) && surface_observability.IsValid(error) &&
          refinement.IsValid(error);
 }
 

@@ -48,7 +48,7 @@ struct RegistrationOptions {
 
   // Of these, what the estimator and the voxels decide is replaced.
   PoseCovarianceOptions covariance;
-  StructureHoldOptions structure_hold;
+  SurfaceObservabilityOptions surface_observability;
 
   // On the voxel means and their normals. None by default.
   RefinementOptions refinement;
@@ -85,7 +85,7 @@ struct RegistrationSummary {
 
   // What the surfaces hold; the directions that they do not are among
   // solution.covariance's, too.
-  std::optional<StructureHold> structure_hold;
+  std::optional<SurfaceObservability> surface_observability;
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 

@@ -19,7 +19,7 @@ static_assert(kNoContact == kNoneWithin);
 
 }  // namespace
 
-bool NormalsAgree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+bool AreNormalsAligned(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::abs(a.dot(b)) > kMinNormalCosine;
 }
 

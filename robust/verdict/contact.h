@@ -42,7 +42,7 @@ MutualContacts FindMutualContacts(const SurfaceCloud& source,
 
 // Whether the normals of two points in contact, in one frame, are within 37 deg
 // of each other or of opposites.
-bool NormalsAgree(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+bool AreNormalsAligned(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 }  // namespace quatro
 

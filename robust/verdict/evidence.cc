@@ -17,20 +17,20 @@ namespace quatro {
 namespace {
 
 // Sums over the met points of both ways, in the target's frame.
-struct MetSums {
+struct OverlapSums {
   std::vector<double> residuals;  // [m]
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   std::vector<Eigen::Vector3d> points;
 };
 
-void AddMet(const std::vector<StructurePoint>& structure,
-            const SurfaceCloud& a,
-            const SurfaceCloud& b,
-            const Rigid3& b_from_a,
-            const Rigid3& target_from_a,
-            MetSums* sums) {
+void AddOverlap(const std::vector<StructurePoint>& structure,
+                const SurfaceCloud& a,
+                const SurfaceCloud& b,
+                const Rigid3& b_from_a,
+                const Rigid3& target_from_a,
+                OverlapSums* sums) {
   for (const StructurePoint& point : structure) {
-    if (!point.is_met) continue;
+    if (!point.is_overlapping) continue;
     const Eigen::Vector3d p = a.tree.points().col(point.index);
     const Eigen::Vector3d from_nearest =
         b_from_a * p - b.tree.points().col(point.nearest);
@@ -82,7 +82,7 @@ void AddFreeSpace(const std::vector<StructurePoint>& structure,
                   FreeSpace* sum) {
   if (!b) return;
   for (const StructurePoint& point : structure) {
-    sum->num_met += point.is_met;
+    sum->num_overlapping += point.is_overlapping;
     if (point.is_near) continue;
     sum->num_contradicted +=
         b->At(b_from_a * Eigen::Vector3d(a.tree.points().col(point.index)),
@@ -179,23 +179,23 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
         of_target = FindStructure(
             target, source, source_from_target, contacts.of_target);
       });
-  const auto source_share = ShareMet(of_source);
-  const auto target_share = ShareMet(of_target);
+  const auto source_share = OverlapShare(of_source);
+  const auto target_share = OverlapShare(of_target);
   if (!source_share || !target_share) return std::nullopt;
 
   GeometricEvidence evidence;
   evidence.structure_overlap = std::min(*source_share, *target_share);
 
-  MetSums sums;
-  AddMet(
+  OverlapSums sums;
+  AddOverlap(
       of_source, source, target, target_from_source, target_from_source, &sums);
-  AddMet(of_target, target, source, source_from_target, Rigid3(), &sums);
+  AddOverlap(of_target, target, source, source_from_target, Rigid3(), &sums);
   evidence.median_residual =
       Quantile(0.5, &sums.residuals) / options.voxel_size;
-  const auto num_met =
+  const auto num_overlapping =
       static_cast<double>(std::max<std::size_t>(1, sums.residuals.size()));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(sums.information /
-                                                              num_met);
+                                                              num_overlapping);
   evidence.weakest_share = std::max(0.0, solver.eigenvalues()[0]);
   const Eigen::Vector2d eigenvector = solver.eigenvectors().col(0);
   Eigen::Index largest = 0;
@@ -229,14 +229,14 @@ std::optional<GeometricEvidence> MeasureGeometricEvidence(
     middle = MiddleAlong(weakest, sums.points) +
              MiddleAlong(up.cross(weakest), sums.points);
   }
-  evidence.rival = FindRivalPose(source,
-                                 target,
-                                 target_from_source,
-                                 middle,
-                                 evidence.weakest_direction,
-                                 max_distance,
-                                 options.rival,
-                                 num_threads);
+  evidence.rival = FindGeometricRival(source,
+                                      target,
+                                      target_from_source,
+                                      middle,
+                                      evidence.weakest_direction,
+                                      max_distance,
+                                      options.rival,
+                                      num_threads);
   const Rigid3& rival = evidence.rival.rival_target_from_source;
   const int num_threads_each = std::max(1, NumThreadsToUse(num_threads) / 2);
   ParallelDo(

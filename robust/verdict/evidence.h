@@ -10,7 +10,8 @@
 //                     m_i the horizontal part of the i-th met normal: what
 //                     holds the pose along the weakest direction, 0 in a
 //                     corridor and 1/2 where all directions are held alike
-//   rival             robust/verdict/rival_pose.h: where it would fit as well
+//   rival             robust/verdict/geometric_rival.h: where it would fit as
+//   well
 //
 // All are the same with source and target swapped, but for rounding to cells.
 
@@ -23,8 +24,8 @@
 
 #include "features/base/rigid3.h"
 #include "robust/verdict/contact.h"
+#include "robust/verdict/geometric_rival.h"
 #include "robust/verdict/overlap.h"
-#include "robust/verdict/rival_pose.h"
 
 namespace quatro {
 
@@ -35,7 +36,7 @@ struct EvidenceOptions {
   // A voxel's mean may be off by about its size; two of them by more.
   double max_distance_in_voxels = 5.0 / 3.0;
 
-  RivalPoseOptions rival;
+  GeometricRivalOptions rival;
 
   // The same [m].
   double MaxDistance() const { return max_distance_in_voxels * voxel_size; }
@@ -47,11 +48,11 @@ struct EvidenceOptions {
 // Structure of either scan, in the ways in which the other is a scan.
 struct FreeSpace {
   Eigen::Index num_contradicted = 0;
-  Eigen::Index num_met = 0;
+  Eigen::Index num_overlapping = 0;
 
   // Contradicted of both, in [0, 1]. Nullopt if nothing was tested.
   std::optional<double> ContradictedShare() const {
-    const Eigen::Index num_tested = num_contradicted + num_met;
+    const Eigen::Index num_tested = num_contradicted + num_overlapping;
     if (num_tested == 0) return std::nullopt;
     return static_cast<double>(num_contradicted) /
            static_cast<double>(num_tested);
@@ -69,7 +70,7 @@ struct GeometricEvidence {
   Eigen::Vector3d weakest_direction = Eigen::Vector3d::UnitX();
   double weakest_share = 0.0;  // In [0, 1/2].
 
-  RivalPose rival;
+  GeometricRival rival;
   FreeSpace rival_free_space;  // A rival that is contradicted is none.
 
   // How much better the pose is than its rival, in [-1, 1].

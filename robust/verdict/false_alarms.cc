@@ -39,7 +39,7 @@ double MeasureChanceOfAgreement(const Points& moved,
   for (const auto q : target.colwise()) sorted.push_back({q.x(), q.y(), q.z()});
   std::sort(sorted.begin(), sorted.end());
 
-  Eigen::Index num_agreeing = 0;
+  Eigen::Index num_inliers = 0;
   Eigen::Index num_sources = 0;
   for (Eigen::Index compared = 0; num_sources < n && compared < kMaxComparisons;
        ++num_sources) {
@@ -50,19 +50,18 @@ double MeasureChanceOfAgreement(const Points& moved,
                          p.x() - bound,
                          [](const auto& q, double x) { return q[0] < x; });
     for (; it != sorted.end() && (*it)[0] <= p.x() + bound; ++it, ++compared) {
-      num_agreeing += std::abs((*it)[1] - p.y()) <= bound &&
-                      std::abs((*it)[2] - p.z()) <= bound;
+      num_inliers += std::abs((*it)[1] - p.y()) <= bound &&
+                     std::abs((*it)[2] - p.z()) <= bound;
     }
     // Its own match is no pairing at random.
-    num_agreeing -=
-        (target.col(num_sources) - p).cwiseAbs().maxCoeff() <= bound;
+    num_inliers -= (target.col(num_sources) - p).cwiseAbs().maxCoeff() <= bound;
   }
   const auto num_pairings =
       static_cast<double>(num_sources) *
       static_cast<double>(std::max<Eigen::Index>(1, n - 1));
   return std::min(
       1.0,
-      static_cast<double>(std::max<Eigen::Index>(0, num_agreeing) + 1) /
+      static_cast<double>(std::max<Eigen::Index>(0, num_inliers) + 1) /
           num_pairings);
 }
 
@@ -129,7 +128,7 @@ std::optional<FalseAlarms> CliqueFalseAlarms(const PointsRef& source,
   FalseAlarms alarms;
   alarms.stage = "clique";
   alarms.num_tested = source.cols();
-  alarms.num_agreeing = size;
+  alarms.num_inliers = size;
   const double e = MeasureChanceOfConsistency(source, target, noise_bound);
   alarms.chance = e * e;
   alarms.log10_false_alarms =
@@ -162,13 +161,13 @@ std::optional<FalseAlarms> RotationFalseAlarms(
     if (!(std::abs(cosine) < 1.0)) continue;
     ++alarms.num_tested;
     sum += std::acos(cosine) / M_PI;
-    alarms.num_agreeing += (q - p).norm() <= bound;
+    alarms.num_inliers += (q - p).norm() <= bound;
   }
   if (alarms.num_tested == 0) return std::nullopt;
   alarms.chance = sum / static_cast<double>(alarms.num_tested);
   alarms.log10_false_alarms =
       Log10(alarms.num_tested) + Log10BinomialTail(alarms.num_tested - 1,
-                                                   alarms.num_agreeing - 1,
+                                                   alarms.num_inliers - 1,
                                                    alarms.chance);
   return alarms;
 }
@@ -182,13 +181,13 @@ FalseAlarms PoseFalseAlarms(const PointsRef& source,
   FalseAlarms alarms;
   alarms.stage = "pose";
   alarms.num_tested = moved.cols();
-  alarms.num_agreeing =
+  alarms.num_inliers =
       ((target - moved).cwiseAbs().colwise().maxCoeff().array() <= noise_bound)
           .count();
   alarms.chance = MeasureChanceOfAgreement(moved, target, noise_bound);
   alarms.log10_false_alarms =
       Log10Pairs(alarms.num_tested) + Log10BinomialTail(alarms.num_tested - 2,
-                                                        alarms.num_agreeing - 2,
+                                                        alarms.num_inliers - 2,
                                                         alarms.chance);
   return alarms;
 }

@@ -42,10 +42,10 @@ namespace quatro {
 
 // How many consensuses like this one chance would give, at one stage.
 struct FalseAlarms {
-  std::string stage;              // "clique", "rotation" or "pose".
-  Eigen::Index num_tested = 0;    // N or K
-  Eigen::Index num_agreeing = 0;  // Of these.
-  double chance = 0.0;            // p
+  std::string stage;             // "clique", "rotation" or "pose".
+  Eigen::Index num_tested = 0;   // N or K
+  Eigen::Index num_inliers = 0;  // Of these.
+  double chance = 0.0;           // p
   double log10_false_alarms = 0.0;
 };
 

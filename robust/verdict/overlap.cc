@@ -36,8 +36,8 @@ void SetNearest(const SurfaceCloud& a,
                 StructurePoint* point) {
   point->nearest = nearest;
   point->is_near = true;
-  point->is_met = NormalsAgree(b_from_a.rotation * a.normals.col(point->index),
-                               b.normals.col(nearest));
+  point->is_overlapping = AreNormalsAligned(
+      b_from_a.rotation * a.normals.col(point->index), b.normals.col(nearest));
 }
 
 }  // namespace
@@ -75,12 +75,15 @@ std::vector<StructurePoint> FindStructure(
   return found;
 }
 
-std::optional<double> ShareMet(const std::vector<StructurePoint>& structure) {
+std::optional<double> OverlapShare(
+    const std::vector<StructurePoint>& structure) {
   if (structure.size() < kMinStructure) return std::nullopt;
-  const auto num_met = std::count_if(structure.begin(),
-                                     structure.end(),
-                                     [](const auto& p) { return p.is_met; });
-  return static_cast<double>(num_met) / static_cast<double>(structure.size());
+  const auto num_overlapping =
+      std::count_if(structure.begin(), structure.end(), [](const auto& p) {
+        return p.is_overlapping;
+      });
+  return static_cast<double>(num_overlapping) /
+         static_cast<double>(structure.size());
 }
 
 std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
@@ -91,9 +94,9 @@ std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
   if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
     return std::nullopt;
   }
-  const auto of_source = ShareMet(FindStructure(
+  const auto of_source = OverlapShare(FindStructure(
       source, target, target_from_source, max_distance, num_threads));
-  const auto of_target = ShareMet(FindStructure(
+  const auto of_target = OverlapShare(FindStructure(
       target, source, Inverse(target_from_source), max_distance, num_threads));
   if (!of_source || !of_target) return std::nullopt;
   return std::min(*of_source, *of_target);

@@ -28,9 +28,9 @@ namespace quatro {
 // A structure point of one cloud and the nearest point of another.
 struct StructurePoint {
   Eigen::Index index = 0;
-  Eigen::Index nearest = 0;  // If near.
-  bool is_near = false;      // Within max_distance.
-  bool is_met = false;       // And the normals agree.
+  Eigen::Index nearest = 0;     // If near.
+  bool is_near = false;         // Within max_distance.
+  bool is_overlapping = false;  // And the normals agree.
 };
 
 // Those of a's structure points that count, ascending.
@@ -48,7 +48,8 @@ std::vector<StructurePoint> FindStructure(
     const std::vector<std::int32_t>& contacts);
 
 // The share that is met; nullopt of fewer than 50.
-std::optional<double> ShareMet(const std::vector<StructurePoint>& structure);
+std::optional<double> OverlapShare(
+    const std::vector<StructurePoint>& structure);
 
 // The smaller of the shares of structure of each scan that is met in the other,
 // in [0, 1]; the same with source and target swapped. Nullopt if either has

@@ -156,8 +156,9 @@ OverlapCount StructureGrid::Count(const TurnedSample& sample,
     const std::uint8_t cell = cells_[static_cast<std::size_t>(
         column + (has_cell ? static_cast<std::ptrdiff_t>(at.z()) : 0))];
     count.num_in_range += (cell & kInRange) != 0;
-    count.num_met += has_cell && (cell & kInRange) != 0 &&
-                     (cell & sample.sectors[static_cast<std::size_t>(i)]) != 0;
+    count.num_overlapping +=
+        has_cell && (cell & kInRange) != 0 &&
+        (cell & sample.sectors[static_cast<std::size_t>(i)]) != 0;
   }
   return count;
 }

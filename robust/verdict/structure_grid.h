@@ -42,12 +42,13 @@ struct TurnedSample {
 // Points of a sample that could be met, and those that are.
 struct OverlapCount {
   int num_in_range = 0;
-  int num_met = 0;
+  int num_overlapping = 0;
 
   // Met of those in range; 0 if there are none.
   double Share() const {
-    return num_in_range == 0 ? 0.0
-                             : static_cast<double>(num_met) / num_in_range;
+    return num_in_range == 0
+               ? 0.0
+               : static_cast<double>(num_overlapping) / num_in_range;
   }
 };
 

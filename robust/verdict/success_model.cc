@@ -32,7 +32,7 @@ double Ramp(double x, double low, double high) {
 
 std::vector<Feature> MakeFeatures(
     double log10_false_alarms,
-    const std::optional<Rival>& rival,
+    const std::optional<MatchRival>& rival,
     const std::optional<GeometricEvidence>& geometry) {
   std::vector<Feature> features = {
       {"surprise",

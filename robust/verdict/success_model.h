@@ -17,7 +17,7 @@
 //                       or, if more, the distinctness      0.4 .. 0.5
 //   held                log10 of the weakest share         -2 .. -0.8
 //
-// (robust/verdict/false_alarms.h, robust/verdict/rival.h,
+// (robust/verdict/false_alarms.h, robust/verdict/match_rival.h,
 // robust/verdict/evidence.h.) The weights were fitted by
 // experiments/scripts/calibrate_verdict.py, which says how; it prints what
 // success_model.cc holds. P is calibrated for the scans there, half of which
@@ -33,7 +33,7 @@
 #include <vector>
 
 #include "robust/verdict/evidence.h"
-#include "robust/verdict/rival.h"
+#include "robust/verdict/match_rival.h"
 
 namespace quatro {
 
@@ -46,7 +46,7 @@ struct Feature {
 // Of the matches, and of the clouds if they are known.
 std::vector<Feature> MakeFeatures(
     double log10_false_alarms,
-    const std::optional<Rival>& rival,
+    const std::optional<MatchRival>& rival,
     const std::optional<GeometricEvidence>& geometry);
 
 // (1), by the model that the features are of.

@@ -15,25 +15,26 @@ namespace quatro {
 namespace {
 
 constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
-constexpr Eigen::Index kMinMet = 50;
+constexpr Eigen::Index kMinOverlapping = 50;
 
 // Points of a that are met in b, and b's normals there, both in b.
-struct MetPoints {
+struct OverlappingPoints {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> normals;
 };
 
-MetPoints FindMet(const SurfaceCloud& a,
-                  const SurfaceCloud& b,
-                  const Rigid3& b_from_a,
-                  const Contacts& contacts) {
+OverlappingPoints FindOverlapping(const SurfaceCloud& a,
+                                  const SurfaceCloud& b,
+                                  const Rigid3& b_from_a,
+                                  const Contacts& contacts) {
   const Points& points = a.tree.points();
-  MetPoints result;
+  OverlappingPoints result;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const std::int32_t nearest = contacts[static_cast<std::size_t>(i)];
     if (nearest == kNoContact) continue;
     const Eigen::Vector3d normal = b.normals.col(nearest);
-    if (!NormalsAgree(b_from_a.rotation * a.normals.col(i), normal)) continue;
+    if (!AreNormalsAligned(b_from_a.rotation * a.normals.col(i), normal))
+      continue;
     result.points.push_back(b_from_a * Eigen::Vector3d(points.col(i)));
     result.normals.push_back(normal);
   }
@@ -48,7 +49,7 @@ struct Sums {
   Eigen::Index num_structure = 0;
 };
 
-Sums SumUp(const MetPoints& met, const Eigen::Vector3d& center) {
+Sums SumUp(const OverlappingPoints& met, const Eigen::Vector3d& center) {
   Sums sums;
   for (std::size_t i = 0; i < met.points.size(); ++i) {
     const Eigen::Vector3d x = met.points[i] - center;
@@ -65,7 +66,8 @@ Sums SumUp(const MetPoints& met, const Eigen::Vector3d& center) {
 }
 
 // In [0, 1].
-double Part(const DirectionInformation& direction, const StructureHold& hold) {
+double Part(const DirectionInformation& direction,
+            const SurfaceObservability& hold) {
   if (direction.freedom == Freedom::kTranslation) return direction.information;
   const Eigen::Vector3d& w = direction.axis;
   const double squared_distance =
@@ -75,73 +77,74 @@ double Part(const DirectionInformation& direction, const StructureHold& hold) {
                                 : 0.0;
 }
 
-void NameUnheld(const StructureHoldOptions& options, StructureHold* hold) {
+void NameUnobservable(const SurfaceObservabilityOptions& options,
+                      SurfaceObservability* hold) {
   for (const DirectionInformation& direction :
        SplitInformation(hold->information, hold->center, options.min_part)) {
     if (Part(direction, *hold) >= options.min_part) continue;
-    hold->unheld.push_back({direction.freedom,
-                            NotHeld::kNoSurface,
-                            direction.axis,
-                            direction.point,
-                            {}});
+    hold->unobservable.push_back({direction.freedom,
+                                  UnobservableReason::kNoSurface,
+                                  direction.axis,
+                                  direction.point,
+                                  {}});
   }
 }
 
 }  // namespace
 
-bool StructureHoldOptions::IsValid(std::string* error) const {
+bool SurfaceObservabilityOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!(max_distance > 0.0 && std::isfinite(max_distance))) {
-    problem << "structure_hold.max_distance = " << max_distance
+    problem << "surface_observability.max_distance = " << max_distance
             << ", must be > 0 and finite";
   } else if (!(min_part >= 0.0 && min_part < 1.0)) {
-    problem << "structure_hold.min_part = " << min_part
+    problem << "surface_observability.min_part = " << min_part
             << ", must be in [0, 1)";
   }
   *error = problem.str();
   return error->empty();
 }
 
-std::optional<StructureHold> MeasureStructureHold(
+std::optional<SurfaceObservability> MeasureSurfaceObservability(
     const SurfaceCloud& source,
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
-    const StructureHoldOptions& options,
+    const SurfaceObservabilityOptions& options,
     int num_threads) {
-  return MeasureStructureHold(source,
-                              target,
-                              target_from_source,
-                              FindMutualContacts(source,
-                                                 target,
-                                                 target_from_source,
-                                                 options.max_distance,
-                                                 num_threads),
-                              options,
-                              num_threads);
+  return MeasureSurfaceObservability(source,
+                                     target,
+                                     target_from_source,
+                                     FindMutualContacts(source,
+                                                        target,
+                                                        target_from_source,
+                                                        options.max_distance,
+                                                        num_threads),
+                                     options,
+                                     num_threads);
 }
 
-std::optional<StructureHold> MeasureStructureHold(
+std::optional<SurfaceObservability> MeasureSurfaceObservability(
     const SurfaceCloud& source,
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
     const MutualContacts& contacts,
-    const StructureHoldOptions& options,
+    const SurfaceObservabilityOptions& options,
     int num_threads) {
-  MetPoints of_source, of_target;
+  OverlappingPoints of_source, of_target;
   ParallelDo(
       num_threads,
       [&] {
-        of_source =
-            FindMet(source, target, target_from_source, contacts.of_source);
+        of_source = FindOverlapping(
+            source, target, target_from_source, contacts.of_source);
       },
       [&] {
-        of_target = FindMet(
+        of_target = FindOverlapping(
             target, source, Inverse(target_from_source), contacts.of_target);
       });
-  StructureHold hold;
-  hold.num_met = static_cast<Eigen::Index>(of_source.points.size() +
-                                           of_target.points.size());
-  if (hold.num_met < kMinMet) return std::nullopt;
+  SurfaceObservability hold;
+  hold.num_overlapping = static_cast<Eigen::Index>(of_source.points.size() +
+                                                   of_target.points.size());
+  if (hold.num_overlapping < kMinOverlapping) return std::nullopt;
   for (Eigen::Vector3d& point : of_target.points) {
     point = target_from_source * point;
   }
@@ -150,7 +153,7 @@ std::optional<StructureHold> MeasureStructureHold(
   }
 
   // From a point first, which keeps the digits of coordinates far out.
-  const auto n = static_cast<double>(hold.num_met);
+  const auto n = static_cast<double>(hold.num_overlapping);
   const Eigen::Vector3d origin = of_source.points.empty()
                                      ? of_target.points.front()
                                      : of_source.points.front();
@@ -173,7 +176,7 @@ std::optional<StructureHold> MeasureStructureHold(
     hold.weakest_level_share =
         std::max(0.0, level.eigenvalues()[0]) / level.eigenvalues().sum();
   }
-  NameUnheld(options, &hold);
+  NameUnobservable(options, &hold);
   return hold;
 }
 

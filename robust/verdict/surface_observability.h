@@ -32,7 +32,7 @@
 namespace quatro {
 
 // From where on a direction counts as held.
-struct StructureHoldOptions {
+struct SurfaceObservabilityOptions {
   double max_distance = 0.5;  // [m]
 
   // A direction with less of (1), each point's part in [0, 1], is not held.
@@ -43,14 +43,14 @@ struct StructureHoldOptions {
 };
 
 // What surfaces hold, direction by direction.
-struct StructureHold {
+struct SurfaceObservability {
   // (1): rotations in m^2, the rest of 1.
   Matrix6 information = Matrix6::Zero();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // c, in the target [m].
   // Mean of (x_i - c) (x_i - c)^T [m^2].
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  Eigen::Index num_met = 0;        // Of both scans.
-  Eigen::Index num_structure = 0;  // Of those, more than 45 deg from level.
+  Eigen::Index num_overlapping = 0;  // Of both scans.
+  Eigen::Index num_structure = 0;    // Of those, more than 45 deg from level.
 
   // Of the points that stand, the level direction d along which fewest normals
   // lie, and its share  sum (n.d)^2 / sum (n_x^2 + n_y^2)  in [0, 1/2]: 0 in a
@@ -58,25 +58,25 @@ struct StructureHold {
   Eigen::Vector3d weakest_level_axis = Eigen::Vector3d::Zero();
   double weakest_level_share = 0.0;
 
-  std::vector<UnheldDirection> unheld;
+  std::vector<UnobservableDirection> unobservable;
 };
 
 // Nullopt if fewer than 50 points are met. With source and target swapped it is
 // the same, moved. Vertical is z in the target.
-std::optional<StructureHold> MeasureStructureHold(
+std::optional<SurfaceObservability> MeasureSurfaceObservability(
     const SurfaceCloud& source,
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
-    const StructureHoldOptions& options,
+    const SurfaceObservabilityOptions& options,
     int num_threads);
 
 // The same with the contacts at the pose at hand, within options.max_distance.
-std::optional<StructureHold> MeasureStructureHold(
+std::optional<SurfaceObservability> MeasureSurfaceObservability(
     const SurfaceCloud& source,
     const SurfaceCloud& target,
     const Rigid3& target_from_source,
     const MutualContacts& contacts,
-    const StructureHoldOptions& options,
+    const SurfaceObservabilityOptions& options,
     int num_threads);
 
 }  // namespace quatro

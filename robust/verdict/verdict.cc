@@ -27,7 +27,7 @@ std::string DescribeStep(const Rigid3& from, const Rigid3& to) {
 
 std::string DescribeMatches(const Verdict& verdict) {
   std::ostringstream text;
-  text << verdict.num_agreeing << " of " << verdict.num_matches
+  text << verdict.num_inliers << " of " << verdict.num_matches
        << " matches agree with the pose, ";
   const double log10_false_alarms =
       verdict.false_alarms.back().log10_false_alarms;
@@ -44,7 +44,7 @@ std::string DescribeMatches(const Verdict& verdict) {
 std::string DescribeDoubts(const Verdict& verdict, const Rigid3& pose) {
   std::ostringstream text;
   if (verdict.rival && verdict.rival->margin < 2.0) {
-    text << "; " << verdict.rival->num_agreeing << " agree with another, "
+    text << "; " << verdict.rival->num_inliers << " agree with another, "
          << DescribeStep(pose, verdict.rival->target_from_source);
   }
   if (!verdict.geometry) return text.str();
@@ -63,11 +63,12 @@ std::string DescribeDoubts(const Verdict& verdict, const Rigid3& pose) {
 
 // A direction of the pose that its own inliers do not hold; null if there is
 // none, or no covariance.
-const UnheldDirection* FindLoose(const PoseSummary& summary) {
+const UnobservableDirection* FindLoose(const PoseSummary& summary) {
   if (!summary.covariance) return nullptr;
-  for (const UnheldDirection& direction : summary.covariance->unheld) {
-    if (direction.reason == NotHeld::kNoData ||
-        direction.reason == NotHeld::kWithinNoise) {
+  for (const UnobservableDirection& direction :
+       summary.covariance->unobservable) {
+    if (direction.reason == UnobservableReason::kNoData ||
+        direction.reason == UnobservableReason::kWithinNoise) {
       return &direction;
     }
   }
@@ -112,7 +113,7 @@ Verdict Judge(const PointsRef& source,
                          ? Status::kDegenerate
                          : Status::kInsufficient;
     verdict.reason = summary.message;
-    verdict.num_matches = summary.num_distinct;
+    verdict.num_matches = summary.num_matches;
     return verdict;
   }
 
@@ -136,9 +137,9 @@ Verdict Judge(const PointsRef& source,
   verdict.false_alarms.push_back(
       PoseFalseAlarms(all.source, all.target, pose, noise_bound));
   verdict.num_matches = verdict.false_alarms.back().num_tested;
-  verdict.num_agreeing = verdict.false_alarms.back().num_agreeing;
+  verdict.num_inliers = verdict.false_alarms.back().num_inliers;
   verdict.rival =
-      FindRival(all.source, all.target, pose, noise_bound, options.rival);
+      FindMatchRival(all.source, all.target, pose, noise_bound, options.rival);
   verdict.geometry = geometry;
 
   verdict.features =
@@ -150,7 +151,7 @@ Verdict Judge(const PointsRef& source,
                        ? Status::kRegistered
                        : Status::kAmbiguous;
   verdict.reason = DescribeMatches(verdict);
-  if (const UnheldDirection* loose = FindLoose(summary)) {
+  if (const UnobservableDirection* loose = FindLoose(summary)) {
     verdict.status = Status::kDegenerate;
     verdict.reason += "; they do not hold the " + loose->Describe();
     return verdict;

@@ -4,7 +4,7 @@
 //
 //   how many matches hold it          against what the estimator needs
 //   the chance that it is accidental  robust/verdict/false_alarms.h
-//   a second answer as good           robust/verdict/rival.h
+//   a second answer as good           robust/verdict/match_rival.h
 //   the clouds, where they are known  robust/verdict/evidence.h
 //                |
 //                v
@@ -28,7 +28,7 @@
 #include "robust/estimators/pose_summary.h"
 #include "robust/verdict/evidence.h"
 #include "robust/verdict/false_alarms.h"
-#include "robust/verdict/rival.h"
+#include "robust/verdict/match_rival.h"
 #include "robust/verdict/success_model.h"
 
 namespace quatro {
@@ -49,7 +49,7 @@ struct VerdictOptions {
   // Registered iff the probability of success is no less.
   double min_probability = 0.8;
 
-  RivalOptions rival;  // Register() replaces seed, threads and vertical.
+  MatchRivalOptions rival;  // Register() replaces seed, threads and vertical.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -67,9 +67,9 @@ struct Verdict {
   std::vector<Feature> features;
 
   Eigen::Index num_matches = 0;           // Copies counted once.
-  Eigen::Index num_agreeing = 0;          // With the pose.
+  Eigen::Index num_inliers = 0;           // With the pose.
   std::vector<FalseAlarms> false_alarms;  // By stage; the last is the pose's.
-  std::optional<Rival> rival;
+  std::optional<MatchRival> rival;
   std::optional<GeometricEvidence> geometry;
 
   // Whether the answer is vouched for.

@@ -83,22 +83,22 @@ std::vector<DirectionInformation> SplitInformation(
   return directions;
 }
 
-std::string UnheldDirection::Describe() const {
+std::string UnobservableDirection::Describe() const {
   std::string text = freedom == Freedom::kTranslation
                          ? "position along the axis " + Text(axis, 2)
                          : "rotation about the axis " + Text(axis, 2) +
                                " through " + Text(point, 1);
   switch (reason) {
-    case NotHeld::kNoData:
+    case UnobservableReason::kNoData:
       return text + ": nothing depends on it, unbounded";
-    case NotHeld::kWithinNoise:
+    case UnobservableReason::kWithinNoise:
       return text + ": what depends on it is within the noise, unbounded";
-    case NotHeld::kUncertain:
+    case UnobservableReason::kUncertain:
       return text + ": " + Text(freedom, standard_deviation);
-    case NotHeld::kAssumed:
+    case UnobservableReason::kAssumed:
       return text + ": not estimated, assumed with " +
              Text(freedom, standard_deviation);
-    case NotHeld::kNoSurface:
+    case UnobservableReason::kNoSurface:
       break;
   }
   return text + ": no surface stands across it";

@@ -51,7 +51,7 @@ std::vector<DirectionInformation> SplitInformation(
     double min_information);
 
 // Why a direction is not known.
-enum class NotHeld {
+enum class UnobservableReason {
   kNoData,       // Nothing depends on it.
   kWithinNoise,  // What depends on it is no larger than the noise.
   kUncertain,    // Held, but with a standard deviation above the limit.
@@ -61,9 +61,9 @@ enum class NotHeld {
 };
 
 // A direction that is not known, and why.
-struct UnheldDirection {
+struct UnobservableDirection {
   Freedom freedom = Freedom::kRotation;
-  NotHeld reason = NotHeld::kNoData;
+  UnobservableReason reason = UnobservableReason::kNoData;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // Unit, in the target.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // On the axis [m].
   std::optional<double> standard_deviation;  // [rad] or [m]; none: unbounded.

@@ -238,15 +238,16 @@ Eigen::Matrix3d TiltCovariance(const Matrix6& information,
 }
 
 // What holds a rotation, if anything: points off the axis, or a prior.
-std::optional<NotHeld> WhyNotHeld(const DirectionInformation& direction,
-                                  const Matrix6& match_information,
-                                  const Matrix6& information,
-                                  const CenteredMatches& matches,
-                                  const PoseCovarianceOptions& options,
-                                  double sigma) {
+std::optional<UnobservableReason> WhyNotHeld(
+    const DirectionInformation& direction,
+    const Matrix6& match_information,
+    const Matrix6& information,
+    const CenteredMatches& matches,
+    const PoseCovarianceOptions& options,
+    double sigma) {
   const auto n = static_cast<double>(matches.x.cols());
   if (direction.freedom == Freedom::kTranslation) {
-    return n > 0.0 ? std::nullopt : std::optional(NotHeld::kNoData);
+    return n > 0.0 ? std::nullopt : std::optional(UnobservableReason::kNoData);
   }
   const Eigen::Vector3d& w = direction.axis;
   const double by_matches = w.dot(match_information.topLeftCorner<3, 3>() * w);
@@ -257,9 +258,10 @@ std::optional<NotHeld> WhyNotHeld(const DirectionInformation& direction,
   if (by_prior > 1.0 && by_prior >= by_matches) return std::nullopt;
   if (!(lever > std::max(kMinConditioning * matches.extent,
                          kMaxRoundings * matches.rounding))) {
-    return NotHeld::kNoData;
+    return UnobservableReason::kNoData;
   }
-  if (!(lever > options.min_lever * sigma)) return NotHeld::kWithinNoise;
+  if (!(lever > options.min_lever * sigma))
+    return UnobservableReason::kWithinNoise;
   return std::nullopt;
 }
 
@@ -362,7 +364,7 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
         direction, by_matches, information, matches, options, result.sigma);
     if (!why_not) continue;
     is_held = false;
-    result.unheld.push_back(
+    result.unobservable.push_back(
         {direction.freedom, *why_not, direction.axis, direction.point, {}});
   }
 
@@ -380,18 +382,18 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
     const Eigen::Matrix3d target_from_level =
         RotationBetween(Eigen::Vector3d::UnitZ(), options.up_in_target);
     for (const int axis : {0, 1}) {
-      result.unheld.push_back({Freedom::kRotation,
-                               NotHeld::kAssumed,
-                               target_from_level.col(axis),
-                               matches.center,
-                               options.tilt_std});
+      result.unobservable.push_back({Freedom::kRotation,
+                                     UnobservableReason::kAssumed,
+                                     target_from_level.col(axis),
+                                     matches.center,
+                                     options.tilt_std});
     }
   }
   if (!is_held || !estimated || result.rank < B.cols()) {
     std::ostringstream message;
     message << source.cols() << " matches hold " << result.rank << " of "
             << B.cols() << " freedoms";
-    for (const UnheldDirection& direction : result.unheld) {
+    for (const UnobservableDirection& direction : result.unobservable) {
       message << "; " << direction.Describe();
     }
     result.message = message.str();
@@ -410,11 +412,11 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
                              ? options.max_rotation_std
                              : options.max_translation_std;
     if (deviation <= limit) continue;
-    result.unheld.push_back({direction.freedom,
-                             NotHeld::kUncertain,
-                             direction.axis,
-                             direction.point,
-                             deviation});
+    result.unobservable.push_back({direction.freedom,
+                                   UnobservableReason::kUncertain,
+                                   direction.axis,
+                                   direction.point,
+                                   deviation});
   }
   Matrix6 from_center = Matrix6::Identity();  // Equation (3).
   for (int i = 0; i < 3; ++i) {

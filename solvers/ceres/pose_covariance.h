@@ -93,7 +93,7 @@ struct PoseCovariance {
   std::optional<Matrix6> covariance_at_center;       // Of w and u in (3).
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // c [m]
 
-  std::vector<UnheldDirection> unheld;
+  std::vector<UnobservableDirection> unobservable;
 
   // Of the 6 or 4 estimated freedoms, as many as the problem holds.
   int rank = 0;

@@ -52,7 +52,7 @@ RC_GTEST_PROP(MethodsProperty, WhatTheySayHoldsTogether, ()) {
     RC_ASSERT(!summary.message.empty());
     RC_ASSERT(AreColumns(summary.consistent, source.cols()));
     RC_ASSERT(AreColumns(summary.translation_inliers, source.cols()));
-    RC_ASSERT(summary.num_distinct <= source.cols());
+    RC_ASSERT(summary.num_matches <= source.cols());
     if (!pose) continue;
     RC_ASSERT(pose->translation.allFinite());
     RC_ASSERT((pose->rotation * pose->rotation.transpose()).isIdentity(1e-9));

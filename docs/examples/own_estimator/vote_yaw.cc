@@ -48,7 +48,7 @@ quatro::PoseSummary SolveByVotes(const quatro::PointsRef& source,
                                  const quatro::QuatroOptions& options) {
   quatro::PoseSummary summary;
   summary.num_needed = 2;
-  summary.num_distinct = source.cols();
+  summary.num_matches = source.cols();
   if (source.cols() < 2) {
     summary.termination = quatro::PoseTermination::kInsufficient;
     summary.message = "a heading needs two matches";
@@ -63,7 +63,7 @@ quatro::PoseSummary SolveByVotes(const quatro::PointsRef& source,
   // Twice the least squares of those that agree.
   for (int round = 0; round < 2; ++round) {
     const auto agreeing =
-        quatro::FindAgreeing(source, target, pose, options.noise_bound);
+        quatro::FindInliers(source, target, pose, options.noise_bound);
     const auto fit = quatro::EstimateYawTranslation(
         source(Eigen::all, agreeing),
         target(Eigen::all, agreeing),
@@ -71,7 +71,7 @@ quatro::PoseSummary SolveByVotes(const quatro::PointsRef& source,
     if (fit) pose = fit->target_from_source;
   }
   summary.translation_inliers =
-      quatro::FindAgreeing(source, target, pose, options.noise_bound);
+      quatro::FindInliers(source, target, pose, options.noise_bound);
   summary.consistent = summary.translation_inliers;
   summary.num_consistent = static_cast<Eigen::Index>(summary.consistent.size());
   summary.num_translation_inliers = summary.num_consistent;

@@ -8,13 +8,13 @@
 //   4  translation  kept: agrees with the pose; regained: agrees, though the
 //                   clique had left it out
 
-import {AGREEING, CONSISTENT} from './view_data.js';
+import {INLIER, CONSISTENT} from './view_data.js';
 
 export const STAGES = [
   {key: 1, name: 'all matches', count: 'matches'},
   {key: 2, name: 'after the clique', count: 'consistent'},
   {key: 3, name: 'after GNC, by weight', count: 'weighted'},
-  {key: 4, name: 'after translation', count: 'agreeing'},
+  {key: 4, name: 'after translation', count: 'inliers'},
 ];
 
 // Whether the method has such a stage.
@@ -29,7 +29,7 @@ export function hasStage(stages, stage) {
 // stage), 'gone' (before it).
 export function roleOf(stages, stage, i) {
   const isConsistent = (stages.fate[i] & CONSISTENT) !== 0;
-  const isAgreeing = (stages.fate[i] & AGREEING) !== 0;
+  const isAgreeing = (stages.fate[i] & INLIER) !== 0;
   switch (stage) {
     case 1:
       return {role: 'all', weight: 1};

@@ -30,7 +30,7 @@ function decodeStages(stages) {
 }
 
 export const CONSISTENT = 1;  // Bits of a match's fate.
-export const AGREEING = 2;
+export const INLIER = 2;
 
 export function decodeView(view) {
   return {

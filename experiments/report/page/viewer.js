@@ -160,7 +160,7 @@ export class Viewer {
       const number = stages.counts[name];
       const right = stages.right ? `, ${percent(stages.right[name], number)} right` : '';
       const what = {weighted: 'of weight 0.5 or more', consistent: 'in the clique', matches: 'in all',
-                    agreeing: 'agree with the pose'}[name];
+                    inliers: 'inliers of the pose'}[name];
       items.push(el('strong', {}, `${count(number)} ${what}${right}`), ` (${count(numDrawn)} lines)`);
     } else {
       items.push('This method has no matches, or others than those of the list’s first.');

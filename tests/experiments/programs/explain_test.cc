@@ -48,8 +48,9 @@ TEST(Explain, TellsTheNumbersOfTheReport) {
   ASSERT_EQ(report["status"], "registered");
   const std::string text = Unwrapped(Explain(report));
   const Json& counts = report["counts"];
-  EXPECT_THAT(text,
-              HasSubstr("consensus: " + counts["clique"].dump() + " of 200 "));
+  EXPECT_THAT(
+      text,
+      HasSubstr("consensus: " + counts["consistent"].dump() + " of 200 "));
   EXPECT_THAT(text,
               HasSubstr("rotation: " + counts["rotation_inliers"].dump() +
                         " of " + counts["tims"].dump() + " differences"));

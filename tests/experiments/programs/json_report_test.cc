@@ -70,20 +70,20 @@ TEST(JsonReportTest, PoseIsWrittenRowByRowAndBitForBit) {
 
 TEST(JsonReportTest, CountsAreTheSolvers) {
   PoseSummary summary;
-  summary.num_distinct = 1;
+  summary.num_matches = 1;
   summary.num_consistent = 2;
   summary.num_tims = 3;
   summary.num_rotation_inliers = 4;
   summary.num_translation_inliers = 5;
   Verdict verdict;
-  verdict.num_agreeing = 6;
+  verdict.num_inliers = 6;
   EXPECT_EQ(MakeReport("quatro", verdict, summary, {}, 0.0)["counts"],
-            Json({{"correspondences", 1},
-                  {"clique", 2},
+            Json({{"matches", 1},
+                  {"consistent", 2},
                   {"tims", 3},
                   {"rotation_inliers", 4},
                   {"translation_inliers", 5},
-                  {"agreeing", 6}}));
+                  {"inliers", 6}}));
 }
 
 TEST(JsonReportTest, TimesAreMillisecondsStageByStage) {
@@ -124,14 +124,14 @@ TEST(JsonReportTest, EvidenceIsNullWhereItWasNotMeasured) {
 
   verdict.false_alarms.push_back({"pose", 100, 20, 0.25, -7.5});
   verdict.rival.emplace();
-  verdict.rival->num_agreeing = 19;
+  verdict.rival->num_inliers = 19;
   verdict.geometry.emplace();
   verdict.geometry->structure_overlap = 0.5;
   verdict.features.push_back({"overlap", 0.5});
   evidence = evidence_of(verdict);
   EXPECT_EQ(evidence["false_alarms"][0]["stage"], "pose");
   EXPECT_EQ(evidence["false_alarms"][0]["log10_false_alarms"], -7.5);
-  EXPECT_EQ(evidence["rival"]["agreeing"], 19);
+  EXPECT_EQ(evidence["rival"]["inliers"], 19);
   EXPECT_EQ(evidence["rival"]["target_from_source"].size(), 4u);
   EXPECT_EQ(evidence["geometry"]["structure_overlap"], 0.5);
   EXPECT_TRUE(evidence["geometry"]["contradicted_share"].is_null());
@@ -166,35 +166,36 @@ TEST(JsonReportTest, CovarianceIsSixRowsBitForBitOrNull) {
         MakeReport("quatro", Verdict(), summary, {}, 0.0).dump());
   };
   EXPECT_TRUE(report_on(PoseSummary())["covariance"].is_null());
-  EXPECT_TRUE(report_on(PoseSummary())["unheld_directions"].empty());
+  EXPECT_TRUE(report_on(PoseSummary())["unobservable_directions"].empty());
 
   PoseSummary summary;
   PoseCovariance& uncertainty = summary.covariance.emplace();
   uncertainty.sigma = 0.1;
-  UnheldDirection direction;
+  UnobservableDirection direction;
   direction.axis = Eigen::Vector3d::UnitX();
   direction.point = {1.0, 2.0, 3.0};
   direction.standard_deviation = 0.02;
-  direction.reason = NotHeld::kUncertain;
-  uncertainty.unheld.push_back(direction);
+  direction.reason = UnobservableReason::kUncertain;
+  uncertainty.unobservable.push_back(direction);
   direction.freedom = Freedom::kTranslation;
-  direction.reason = NotHeld::kNoSurface;
+  direction.reason = UnobservableReason::kNoSurface;
   direction.standard_deviation.reset();
-  uncertainty.unheld.push_back(direction);
+  uncertainty.unobservable.push_back(direction);
   Json report = report_on(summary);
   EXPECT_TRUE(report["covariance"].is_null());
-  ASSERT_EQ(report["unheld_directions"].size(), 2u);
-  EXPECT_EQ(report["unheld_directions"][0],
+  ASSERT_EQ(report["unobservable_directions"].size(), 2u);
+  EXPECT_EQ(report["unobservable_directions"][0],
             Json({{"freedom", "rotation"},
                   {"reason", "uncertain"},
                   {"axis", {1.0, 0.0, 0.0}},
                   {"point", {1.0, 2.0, 3.0}},
                   {"standard_deviation", 0.02},
-                  {"text", uncertainty.unheld[0].Describe()}}));
-  EXPECT_EQ(report["unheld_directions"][1]["freedom"], "translation");
-  EXPECT_EQ(report["unheld_directions"][1]["reason"], "no_surface");
-  EXPECT_TRUE(report["unheld_directions"][1]["point"].is_null());
-  EXPECT_TRUE(report["unheld_directions"][1]["standard_deviation"].is_null());
+                  {"text", uncertainty.unobservable[0].Describe()}}));
+  EXPECT_EQ(report["unobservable_directions"][1]["freedom"], "translation");
+  EXPECT_EQ(report["unobservable_directions"][1]["reason"], "no_surface");
+  EXPECT_TRUE(report["unobservable_directions"][1]["point"].is_null());
+  EXPECT_TRUE(
+      report["unobservable_directions"][1]["standard_deviation"].is_null());
   EXPECT_EQ(report["match_sigma"]["assumed"], 0.1);
   EXPECT_TRUE(report["match_sigma"]["from_residuals"].is_null());
 
@@ -218,7 +219,7 @@ TEST(JsonReportTest, CovarianceIsSixRowsBitForBitOrNull) {
 
 TEST(JsonReportTest, StructureThatWasNotMeasuredIsNull) {
   EXPECT_TRUE(Describe(std::nullopt).is_null());
-  StructureHold hold;
+  SurfaceObservability hold;
   hold.weakest_level_share = 0.25;
   hold.weakest_level_axis = Eigen::Vector3d::UnitY();
   EXPECT_EQ(Describe(hold)["weakest_level_share"], 0.25);

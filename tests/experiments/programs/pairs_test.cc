@@ -163,7 +163,7 @@ TEST_F(PairsTest, CovarianceOfARealPairIsPlausible) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto report = nlohmann::json::parse(run.out);
   const auto& about = report["covariance_about"];
-  ASSERT_FALSE(about.is_null()) << report["unheld_directions"];
+  ASSERT_FALSE(about.is_null()) << report["unobservable_directions"];
   for (std::size_t i = 0; i < 6; ++i) {
     const double deviation = std::sqrt(about["covariance"][i][i].get<double>());
     EXPECT_GT(deviation, i < 3 ? 1e-5 : 1e-3) << i;
@@ -174,7 +174,9 @@ TEST_F(PairsTest, CovarianceOfARealPairIsPlausible) {
   }
   EXPECT_GT(report["match_sigma"]["from_residuals"].get<double>(), 0.02);
   EXPECT_LT(report["match_sigma"]["from_residuals"].get<double>(), 0.2);
-  EXPECT_GT(report["structure_hold"]["weakest_level_share"].get<double>(), 0.0);
+  EXPECT_GT(
+      report["surface_observability"]["weakest_level_share"].get<double>(),
+      0.0);
 }
 
 TEST_F(PairsTest, DoesNotRegisterDifferentPlaces) {

@@ -246,7 +246,7 @@ TEST_F(SolveProgramTest, FullOutputIsToldAndLeavesFilesAlone) {
 TEST_F(SolveProgramTest, NoMatchesAreInsufficient) {
   const json report = Report({Points(3, 0), Points(3, 0)});
   EXPECT_EQ(report["status"], "insufficient");
-  EXPECT_EQ(report["counts"]["correspondences"], 0);
+  EXPECT_EQ(report["counts"]["matches"], 0);
 }
 
 TEST_F(SolveProgramTest, OneMatchIsInsufficient) {
@@ -349,10 +349,8 @@ TEST_F(SolveProgramTest, ReportHasAllFields) {
   }
   EXPECT_EQ(report["target_from_source"][3], json({0.0, 0.0, 0.0, 1.0}));
   EXPECT_TRUE(report["yaw_deg"].is_number_float());
-  for (const char* name : {"correspondences",
-                           "clique",
-                           "rotation_inliers",
-                           "translation_inliers"}) {
+  for (const char* name :
+       {"matches", "consistent", "rotation_inliers", "translation_inliers"}) {
     EXPECT_TRUE(report["counts"][name].is_number_integer()) << name;
   }
   ASSERT_TRUE(report.contains("covariance"));

@@ -154,16 +154,16 @@ TEST_F(PairViewTest, StagesAreThoseOfTheSummary) {
   ASSERT_EQ(fate.size(),
             static_cast<std::size_t>(answer_.summary.matched_source.cols()));
   ASSERT_EQ(weight.size(), fate.size());
-  std::vector<Eigen::Index> consistent, agreeing;
+  std::vector<Eigen::Index> consistent, inliers;
   for (std::size_t i = 0; i < fate.size(); ++i) {
     if (fate[i] & kIsConsistent) consistent.push_back(static_cast<long>(i));
-    if (fate[i] & kIsAgreeing) agreeing.push_back(static_cast<long>(i));
+    if (fate[i] & kIsInlier) inliers.push_back(static_cast<long>(i));
     if (weight[i] != 0) {
       EXPECT_TRUE(fate[i] & kIsConsistent) << i;
     }
   }
   EXPECT_EQ(consistent, solution.consistent);
-  EXPECT_EQ(agreeing, solution.translation_inliers);
+  EXPECT_EQ(inliers, solution.translation_inliers);
 }
 
 TEST_F(PairViewTest, CountsAreOfAllMatchesAndFallFromStageToStage) {

@@ -13,7 +13,7 @@ import {pathToFileURL} from 'node:url';
 
 import {matrixOf} from '../../../experiments/report/page/motion.js';
 import {roleOf} from '../../../experiments/report/page/match_stages.js';
-import {AGREEING, CONSISTENT, decodeView, drawnPose} from '../../../experiments/report/page/view_data.js';
+import {INLIER, CONSISTENT, decodeView, drawnPose} from '../../../experiments/report/page/view_data.js';
 import {Browser} from '../../support/browser.mjs';
 
 const [bin, chromium] = process.argv.slice(2);
@@ -72,7 +72,7 @@ function run(program, args, codes = [0]) {
 
 // Who outlives which stage; 102 of 255 is a weight of 0.4.
 function checkStages() {
-  const stages = {fate: [0, CONSISTENT, CONSISTENT | AGREEING, AGREEING], weight: [0, 102, 255, 0],
+  const stages = {fate: [0, CONSISTENT, CONSISTENT | INLIER, INLIER], weight: [0, 102, 255, 0],
                   counts: {consistent: 2}};
   const roles = (stage) => stages.fate.map((_, i) => roleOf(stages, stage, i).role);
   assert.deepEqual(roles(1), ['all', 'all', 'all', 'all']);
@@ -88,7 +88,7 @@ function checkPose(page) {
   const view = decodeView(JSON.parse(json));
   const {pose, stages} = view.methods[0];
   const farthest = (matrix) => Math.max(...Array.from(stages.fate, (fate, i) => {
-    if (!(fate & AGREEING)) return 0;
+    if (!(fate & INLIER)) return 0;
     const [x, y, z] = view.matchedSource.slice(3 * i, 3 * i + 3);
     const m = matrix.elements;  // Column by column.
     return Math.max(...[0, 1, 2].map((axis) => Math.abs(

@@ -110,7 +110,7 @@ TEST_F(ArcConsensusTest, SummaryCountsWhatItLists) {
   const PoseSummary summary = Solve(problem_);
   EXPECT_EQ(summary.termination, PoseTermination::kSolved);
   EXPECT_EQ(summary.num_needed, 2);
-  EXPECT_EQ(summary.num_distinct, 2000);
+  EXPECT_EQ(summary.num_matches, 2000);
   EXPECT_EQ(summary.num_consistent,
             static_cast<Eigen::Index>(summary.consistent.size()));
   EXPECT_EQ(summary.num_translation_inliers,
@@ -142,7 +142,7 @@ TEST_F(ArcConsensusTest, RepeatedMatchesCountOnceBitForBit) {
   const PoseSummary repeated = SolveArcConsensus(
       Reordered(problem_.source, order), Reordered(problem_.target, order), {});
   ExpectSameBits(repeated, Solve(problem_));
-  EXPECT_EQ(repeated.num_distinct, 2000);
+  EXPECT_EQ(repeated.num_matches, 2000);
   EXPECT_GT(static_cast<Eigen::Index>(repeated.translation_inliers.size()),
             repeated.num_translation_inliers);
 }
@@ -274,7 +274,7 @@ TEST_F(ArcConsensusTest, NoMatchesOrOneAreNoAnswer) {
     const PoseSummary summary = SolveArcConsensus(
         problem_.source.leftCols(n), problem_.target.leftCols(n), {});
     ExpectNoAnswer(summary, PoseTermination::kInsufficient);
-    EXPECT_EQ(summary.num_distinct, n);
+    EXPECT_EQ(summary.num_matches, n);
     EXPECT_THAT(summary.message, HasSubstr("needs two matches"));
   }
 }
@@ -300,7 +300,7 @@ TEST_F(ArcConsensusTest, OneMatchManyTimesIsNoAnswer) {
                         problem_.target.col(0).replicate(1, 50),
                         {});
   ExpectNoAnswer(summary, PoseTermination::kInsufficient);
-  EXPECT_EQ(summary.num_distinct, 1);
+  EXPECT_EQ(summary.num_matches, 1);
 }
 
 TEST_F(ArcConsensusTest, MatchesOnALineHoldTheYaw) {

@@ -44,11 +44,11 @@ TEST_F(ConsensusTest, CostByHand) {
 }
 
 TEST_F(ConsensusTest, AgreeingByHand) {
-  EXPECT_THAT(FindAgreeing(source_, target_, pose_, 0.299), ElementsAre(0));
-  EXPECT_THAT(FindAgreeing(source_, target_, pose_, 0.301), ElementsAre(0, 1));
-  EXPECT_THAT(FindAgreeing(source_, target_, pose_, 0.311),
+  EXPECT_THAT(FindInliers(source_, target_, pose_, 0.299), ElementsAre(0));
+  EXPECT_THAT(FindInliers(source_, target_, pose_, 0.301), ElementsAre(0, 1));
+  EXPECT_THAT(FindInliers(source_, target_, pose_, 0.311),
               ElementsAre(0, 1, 2));
-  EXPECT_THAT(FindAgreeing(source_, target_, pose_, 3.01),
+  EXPECT_THAT(FindInliers(source_, target_, pose_, 3.01),
               ElementsAre(0, 1, 2, 3));
 }
 
@@ -65,14 +65,14 @@ TEST_F(ConsensusTest, WithinTheBallByHand) {
 
 TEST_F(ConsensusTest, NoMatchesCostNothingAndNoneAgrees) {
   EXPECT_EQ(ConsensusCost(Points(3, 0), Points(3, 0), pose_, 0.3), 0.0);
-  EXPECT_THAT(FindAgreeing(Points(3, 0), Points(3, 0), pose_, 0.3), IsEmpty());
+  EXPECT_THAT(FindInliers(Points(3, 0), Points(3, 0), pose_, 0.3), IsEmpty());
 }
 
 TEST(Consensus, WhoIsWithinTheBallAgreesOnEachAxis) {
   const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/1);
-  const auto agreeing = FindAgreeing(
+  const auto inliers = FindInliers(
       problem.source, problem.target, problem.true_target_from_source, 0.05);
-  EXPECT_EQ(agreeing, problem.inliers);
+  EXPECT_EQ(inliers, problem.inliers);
   const double num_others =
       static_cast<double>(problem.source.cols() - problem.inliers.size());
   const double cost = ConsensusCost(

@@ -106,7 +106,7 @@ TEST_P(QuatroTest, SummaryCountsWhatItLists) {
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
   EXPECT_EQ(summary.termination, PoseTermination::kSolved);
   EXPECT_EQ(summary.num_needed, 2);
-  EXPECT_EQ(summary.num_distinct, 200);
+  EXPECT_EQ(summary.num_matches, 200);
   EXPECT_EQ(summary.num_consistent,
             static_cast<Eigen::Index>(summary.consistent.size()));
   EXPECT_EQ(summary.num_translation_inliers,
@@ -180,7 +180,7 @@ TEST_P(QuatroTest, RepeatedMatchesCountOnceBitForBit) {
                                              Reordered(problem_.target, order),
                                              options_);
   ExpectSameBits(repeated, expected);
-  EXPECT_EQ(repeated.num_distinct, n);
+  EXPECT_EQ(repeated.num_matches, n);
   // Copies are kept together.
   std::vector<Eigen::Index> originals;
   for (const Eigen::Index k : repeated.translation_inliers) {
@@ -345,14 +345,14 @@ TEST_P(QuatroTest, NoMatchesAreNoAnswer) {
   const QuatroSummary summary =
       SolveQuatro(Points(3, 0), Points(3, 0), options_);
   ExpectNoAnswer(summary, PoseTermination::kInsufficient);
-  EXPECT_EQ(summary.num_distinct, 0);
+  EXPECT_EQ(summary.num_matches, 0);
 }
 
 TEST_P(QuatroTest, OneMatchIsNoAnswer) {
   const QuatroSummary summary = SolveQuatro(
       problem_.source.leftCols(1), problem_.target.leftCols(1), options_);
   ExpectNoAnswer(summary, PoseTermination::kInsufficient);
-  EXPECT_EQ(summary.num_distinct, 1);
+  EXPECT_EQ(summary.num_matches, 1);
 }
 
 TEST_P(QuatroTest, CopiesOfOneMatchAreNoAnswer) {
@@ -361,7 +361,7 @@ TEST_P(QuatroTest, CopiesOfOneMatchAreNoAnswer) {
                   problem_.target.leftCols(1).replicate(1, 50),
                   options_);
   ExpectNoAnswer(summary, PoseTermination::kInsufficient);
-  EXPECT_EQ(summary.num_distinct, 1);
+  EXPECT_EQ(summary.num_matches, 1);
 }
 
 TEST_P(QuatroTest, MatchesOnALevelLineHoldTheYaw) {
@@ -660,7 +660,7 @@ TEST(QuatroOptions, ErrorNamesTheFieldAndNothingIsTried) {
     const QuatroSummary summary = Solve(MakeMatchedProblem({}, 1), options);
     ExpectNoAnswer(summary, PoseTermination::kInvalidInput);
     EXPECT_EQ(summary.message, error);
-    EXPECT_EQ(summary.num_distinct, 0);
+    EXPECT_EQ(summary.num_matches, 0);
   };
   using Options = QuatroOptions*;
   expect_error([](Options o) { o->noise_bound = 0.0; }, "noise_bound = 0");

@@ -141,7 +141,7 @@ TEST(Ransac, StopsOnceConfident) {
     EXPECT_EQ(static_cast<double>(summary.num_iterations),
               NumIterationsFor(confidence,
                                summary.num_translation_inliers,
-                               summary.num_distinct,
+                               summary.num_matches,
                                3))
         << confidence;
   }
@@ -370,7 +370,7 @@ TEST(Ransac, CopiesWithOtherNormalsAreOneMatchInAnyOrder) {
   const Points source = Reordered(problem.source, order);
   const Points target = Reordered(problem.target, order);
   const RansacSummary expected = SolveRansac(source, target, options, &normals);
-  EXPECT_EQ(expected.num_distinct, 8);
+  EXPECT_EQ(expected.num_matches, 8);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto shuffled = RandomPermutation(12, seed);
     const MatchedNormals shuffled_normals{Reordered(normals.source, shuffled),

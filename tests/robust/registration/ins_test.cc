@@ -216,7 +216,7 @@ TEST_P(InsModeTest, CopiesOfAMatchCountOnce) {
   const QuatroSummary once = Solve(problem, GetParam());
   const QuatroSummary copied = Solve(twice, GetParam());
   ASSERT_TRUE(once.IsUsable() && copied.IsUsable());
-  EXPECT_EQ(copied.num_distinct, once.num_distinct);
+  EXPECT_EQ(copied.num_matches, once.num_matches);
   EXPECT_EQ(copied.num_translation_inliers, once.num_translation_inliers);
   EXPECT_EQ(copied.target_from_source->ToMatrix(),
             once.target_from_source->ToMatrix());

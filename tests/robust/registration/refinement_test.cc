@@ -218,9 +218,9 @@ TEST(RegisterWithRefinement, VerdictJudgesTheRefinedPose) {
         Rigid3{Eigen::Matrix3d::Identity(), {0.5, 0.4, 0.0}};
     return summary;
   };
-  const auto before = Register(source, target, options).verdict.num_agreeing;
+  const auto before = Register(source, target, options).verdict.num_inliers;
   options.refinement.method = RefinementMethod::kGicp;
-  const auto after = Register(source, target, options).verdict.num_agreeing;
+  const auto after = Register(source, target, options).verdict.num_inliers;
   EXPECT_GT(after, 2 * before);
 }
 

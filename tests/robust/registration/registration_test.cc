@@ -158,7 +158,7 @@ TEST_F(RegistrationTest, AnotherSolverTakesThePlaceOfQuatro) {
     PoseSummary summary;
     summary.termination = PoseTermination::kInsufficient;
     summary.message = "not today";
-    summary.num_distinct = source.cols();
+    summary.num_matches = source.cols();
     return summary;
   };
   const RegistrationSummary summary = Register(source_, target_, options_);

@@ -92,27 +92,27 @@ TEST_F(ContactTest, AtHandGiveTheSameStructure) {
                     pose_,
                     FindContacts(source(), target(), pose_, kMaxDistance, 1));
   ASSERT_EQ(found.size(), given.size());
-  int num_met = 0;
+  int num_overlapping = 0;
   for (std::size_t k = 0; k < found.size(); ++k) {
     EXPECT_EQ(found[k].index, given[k].index);
     EXPECT_EQ(found[k].nearest, given[k].nearest);
     EXPECT_EQ(found[k].is_near, given[k].is_near);
-    EXPECT_EQ(found[k].is_met, given[k].is_met);
-    num_met += found[k].is_met;
+    EXPECT_EQ(found[k].is_overlapping, given[k].is_overlapping);
+    num_overlapping += found[k].is_overlapping;
   }
-  EXPECT_GT(num_met, 10);
+  EXPECT_GT(num_overlapping, 10);
 }
 
-TEST(NormalsAgree, WithinTheAngleOrOfOpposites) {
+TEST(AreNormalsAligned, WithinTheAngleOrOfOpposites) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const auto tilted = [](double degrees) {
     const double angle = degrees * M_PI / 180.0;
     return Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle));
   };
-  EXPECT_TRUE(NormalsAgree(up, tilted(36.0)));
-  EXPECT_FALSE(NormalsAgree(up, tilted(38.0)));
-  EXPECT_TRUE(NormalsAgree(up, -tilted(36.0)));
-  EXPECT_FALSE(NormalsAgree(up, Eigen::Vector3d::Zero()));
+  EXPECT_TRUE(AreNormalsAligned(up, tilted(36.0)));
+  EXPECT_FALSE(AreNormalsAligned(up, tilted(38.0)));
+  EXPECT_TRUE(AreNormalsAligned(up, -tilted(36.0)));
+  EXPECT_FALSE(AreNormalsAligned(up, Eigen::Vector3d::Zero()));
 }
 
 }  // namespace

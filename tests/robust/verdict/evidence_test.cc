@@ -141,7 +141,7 @@ TEST(GeometricEvidence, OfARightPoseSpeaksForIt) {
   EXPECT_LT(evidence.median_residual, 0.2);
   ASSERT_TRUE(evidence.free_space.ContradictedShare().has_value());
   EXPECT_LT(*evidence.free_space.ContradictedShare(), 0.02);
-  EXPECT_GT(evidence.free_space.num_met, 1000);
+  EXPECT_GT(evidence.free_space.num_overlapping, 1000);
   EXPECT_GT(evidence.weakest_share, 0.2);
   EXPECT_GT(evidence.Distinctness(), 0.2);
   EXPECT_NEAR(evidence.rival.overlap, evidence.structure_overlap, 0.1);
@@ -314,7 +314,7 @@ TEST(GeometricEvidence, FreeSpaceIsUnknownIfNeitherIsAScan) {
   const GeometricEvidence none = Measure(pair);
   EXPECT_FALSE(none.free_space.ContradictedShare().has_value());
   EXPECT_EQ(none.free_space.num_contradicted, 0);
-  EXPECT_EQ(none.free_space.num_met, 0);
+  EXPECT_EQ(none.free_space.num_overlapping, 0);
   EXPECT_EQ(none.structure_overlap, one.structure_overlap);
 }
 

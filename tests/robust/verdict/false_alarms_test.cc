@@ -102,7 +102,7 @@ TEST(PoseFalseAlarms, AreEquationOne) {
   const double n = 70.0;
   EXPECT_NEAR(alarms.log10_false_alarms,
               std::log10(n * (n - 1.0) / 2.0) +
-                  Log10BinomialTail(68, alarms.num_agreeing - 2, alarms.chance),
+                  Log10BinomialTail(68, alarms.num_inliers - 2, alarms.chance),
               1e-12);
 }
 
@@ -110,17 +110,17 @@ TEST(PoseFalseAlarms, ChanceIsTheShareOfAgreementAmongOtherPairings) {
   const KnownProblem problem = MakeMatchedProblem(
       {.num_outliers = 60, .half_widths = {3.0, 3.0, 1.0}}, /*seed=*/3);
   const Points moved = problem.true_target_from_source.Apply(problem.source);
-  int num_agreeing = 0;
+  int num_inliers = 0;
   for (Eigen::Index i = 0; i < 100; ++i) {
     for (Eigen::Index j = 0; j < 100; ++j) {
       const double worst =
           (problem.target.col(j) - moved.col(i)).cwiseAbs().maxCoeff();
-      num_agreeing += i != j && worst <= kNoiseBound;
+      num_inliers += i != j && worst <= kNoiseBound;
     }
   }
-  EXPECT_GT(num_agreeing, 20);
+  EXPECT_GT(num_inliers, 20);
   EXPECT_NEAR(
-      OfTruth(problem).chance, (num_agreeing + 1) / (100.0 * 99.0), 1e-12);
+      OfTruth(problem).chance, (num_inliers + 1) / (100.0 * 99.0), 1e-12);
 }
 
 std::optional<FalseAlarms> OfClique(const KnownProblem& problem,
@@ -196,7 +196,7 @@ TEST(RotationFalseAlarms, ChanceIsTheShareOfRandomYawsThatAgree) {
   // do not agree have no arc, and count for nothing.
   Random random(5);
   const Eigen::Index n = problem.source.cols();
-  int num_agreeing = 0;
+  int num_inliers = 0;
   int num_with_arc = 0;
   constexpr int kNumTurns = 2000;
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -209,12 +209,12 @@ TEST(RotationFalseAlarms, ChanceIsTheShareOfRandomYawsThatAgree) {
     ++num_with_arc;
     for (int turn = 0; turn < kNumTurns; ++turn) {
       const Eigen::Rotation2Dd by(2.0 * M_PI * random.Uniform());
-      num_agreeing += (b - by * a).norm() <= 2.0 * kNoiseBound;
+      num_inliers += (b - by * a).norm() <= 2.0 * kNoiseBound;
     }
   }
   EXPECT_EQ(alarms->num_tested, num_with_arc);
   EXPECT_NEAR(alarms->chance,
-              num_agreeing / (1.0 * kNumTurns * num_with_arc),
+              num_inliers / (1.0 * kNumTurns * num_with_arc),
               0.1 * alarms->chance);
 }
 

@@ -161,8 +161,9 @@ TEST_F(AddCovarianceTest, AssumedTiltIsTheInsOwn) {
   ASSERT_TRUE(leveled.covariance.has_value()) << leveled.message;
   ASSERT_TRUE(leveled.covariance->covariance.has_value());
   int num_assumed = 0;
-  for (const UnheldDirection& direction : leveled.covariance->unheld) {
-    if (direction.reason != NotHeld::kAssumed) continue;
+  for (const UnobservableDirection& direction :
+       leveled.covariance->unobservable) {
+    if (direction.reason != UnobservableReason::kAssumed) continue;
     ++num_assumed;
     EXPECT_NEAR(direction.axis.dot(R.transpose().col(2)), 0.0, 1e-9);
     EXPECT_NEAR(*direction.standard_deviation, std::sqrt(2.0) * 0.004, 1e-12);

@@ -62,66 +62,66 @@ Surface Moved(const Rigid3& motion, const Surface& surface) {
   return {motion.Apply(surface.points), motion.rotation * surface.normals};
 }
 
-class StructureHoldTest : public ::testing::Test {
+class SurfaceObservabilityTest : public ::testing::Test {
  protected:
-  std::optional<StructureHold> Measure(const Surface& source,
-                                       const Surface& target,
-                                       const Rigid3& pose,
-                                       int num_threads = 1) const {
-    return MeasureStructureHold(Cloud(source).view(),
-                                Cloud(target).view(),
-                                pose,
-                                options_,
-                                num_threads);
+  std::optional<SurfaceObservability> Measure(const Surface& source,
+                                              const Surface& target,
+                                              const Rigid3& pose,
+                                              int num_threads = 1) const {
+    return MeasureSurfaceObservability(Cloud(source).view(),
+                                       Cloud(target).view(),
+                                       pose,
+                                       options_,
+                                       num_threads);
   }
 
   const Rigid3 pose_{RotationZ(0.35), {3.0, 4.0, 0.5}};
-  StructureHoldOptions options_;
+  SurfaceObservabilityOptions options_;
 };
 
-TEST_F(StructureHoldTest, PositionAlongACorridorIsNamed) {
+TEST_F(SurfaceObservabilityTest, PositionAlongACorridorIsNamed) {
   const Surface source = Corridor(false, 1);
   const auto hold = Measure(source, Moved(pose_, Corridor(false, 2)), pose_);
   ASSERT_TRUE(hold.has_value());
   const Eigen::Vector3d along = pose_.rotation.col(0);
-  ASSERT_EQ(hold->unheld.size(), 1u);
-  EXPECT_EQ(hold->unheld[0].freedom, Freedom::kTranslation);
-  EXPECT_NEAR(std::abs(hold->unheld[0].axis.dot(along)), 1.0, 1e-9);
-  EXPECT_EQ(hold->unheld[0].Describe(),
+  ASSERT_EQ(hold->unobservable.size(), 1u);
+  EXPECT_EQ(hold->unobservable[0].freedom, Freedom::kTranslation);
+  EXPECT_NEAR(std::abs(hold->unobservable[0].axis.dot(along)), 1.0, 1e-9);
+  EXPECT_EQ(hold->unobservable[0].Describe(),
             "position along the axis (0.94, 0.34, 0.00): no surface stands "
             "across it");
   EXPECT_NEAR(std::abs(hold->weakest_level_axis.dot(along)), 1.0, 1e-9);
   EXPECT_NEAR(hold->weakest_level_share, 0.0, 1e-9);
   EXPECT_GT(hold->num_structure, 5000);
-  EXPECT_LT(hold->num_structure, hold->num_met);
+  EXPECT_LT(hold->num_structure, hold->num_overlapping);
 }
 
-TEST_F(StructureHoldTest, AWallAtTheEndHoldsIt) {
+TEST_F(SurfaceObservabilityTest, AWallAtTheEndHoldsIt) {
   const auto hold =
       Measure(Corridor(true, 1), Moved(pose_, Corridor(true, 2)), pose_);
   ASSERT_TRUE(hold.has_value());
-  EXPECT_TRUE(hold->unheld.empty()) << hold->unheld[0].Describe();
+  EXPECT_TRUE(hold->unobservable.empty()) << hold->unobservable[0].Describe();
   // A tenth of all points, of the seven tenths that stand.
   EXPECT_NEAR(hold->weakest_level_share, 1.0 / 7.0, 0.02);
 }
 
-TEST_F(StructureHoldTest, BareGroundHoldsNoHeading) {
+TEST_F(SurfaceObservabilityTest, BareGroundHoldsNoHeading) {
   const auto hold = Measure(RandomPlane(4000, 20.0, 1),
                             Moved(pose_, RandomPlane(4000, 20.0, 2)),
                             pose_);
   ASSERT_TRUE(hold.has_value());
-  ASSERT_EQ(hold->unheld.size(), 3u);
-  EXPECT_EQ(hold->unheld[2].freedom, Freedom::kRotation);
-  EXPECT_NEAR(hold->unheld[2].axis.z(), 1.0, 1e-9);
+  ASSERT_EQ(hold->unobservable.size(), 3u);
+  EXPECT_EQ(hold->unobservable[2].freedom, Freedom::kRotation);
+  EXPECT_NEAR(hold->unobservable[2].axis.z(), 1.0, 1e-9);
   EXPECT_EQ(hold->num_structure, 0);
   EXPECT_EQ(hold->weakest_level_share, 0.0);
 }
 
-TEST_F(StructureHoldTest, InformationIsOfThePointsThatAreMet) {
+TEST_F(SurfaceObservabilityTest, InformationIsOfThePointsThatAreMet) {
   const Surface target = Corridor(true, 3);
   const auto hold = Measure(target, target, Rigid3());
   ASSERT_TRUE(hold.has_value());
-  EXPECT_EQ(hold->num_met, 2 * target.points.cols());
+  EXPECT_EQ(hold->num_overlapping, 2 * target.points.cols());
   EXPECT_LT((hold->center - target.points.rowwise().mean()).norm(), 1e-9);
   Matrix6 expected = Matrix6::Zero();
   for (Eigen::Index i = 0; i < target.points.cols(); ++i) {
@@ -135,7 +135,7 @@ TEST_F(StructureHoldTest, InformationIsOfThePointsThatAreMet) {
 }
 
 // Half a source that the target lacks, and normals that do not agree.
-TEST_F(StructureHoldTest, WhatIsNotMetDoesNotCount) {
+TEST_F(SurfaceObservabilityTest, WhatIsNotMetDoesNotCount) {
   const Surface target = Corridor(true, 3);
   Surface source = target;
   source.points.leftCols(1000).colwise() += Eigen::Vector3d(0.0, 0.0, 50.0);
@@ -144,17 +144,17 @@ TEST_F(StructureHoldTest, WhatIsNotMetDoesNotCount) {
   options_.max_distance = 1e-6;
   const auto hold = Measure(source, target, Rigid3());
   ASSERT_TRUE(hold.has_value());
-  EXPECT_EQ(hold->num_met, 2 * (target.points.cols() - 3000));
+  EXPECT_EQ(hold->num_overlapping, 2 * (target.points.cols() - 3000));
 }
 
-TEST_F(StructureHoldTest, SwappingSourceAndTargetMovesIt) {
+TEST_F(SurfaceObservabilityTest, SwappingSourceAndTargetMovesIt) {
   const Surface source = Corridor(true, 1);
   const Surface target = Moved(pose_, Corridor(true, 2));
   const auto forward = Measure(source, target, pose_);
   const auto backward = Measure(target, source, Inverse(pose_));
   ASSERT_TRUE(forward.has_value());
   ASSERT_TRUE(backward.has_value());
-  EXPECT_EQ(forward->num_met, backward->num_met);
+  EXPECT_EQ(forward->num_overlapping, backward->num_overlapping);
   EXPECT_NEAR(
       forward->weakest_level_share, backward->weakest_level_share, 1e-9);
   EXPECT_LT((forward->center - pose_ * backward->center).norm(), 1e-9);
@@ -167,7 +167,7 @@ TEST_F(StructureHoldTest, SwappingSourceAndTargetMovesIt) {
       1e-9 * forward->information.norm());
 }
 
-TEST_F(StructureHoldTest, NumberOfThreadsDoesNotMatterBitForBit) {
+TEST_F(SurfaceObservabilityTest, NumberOfThreadsDoesNotMatterBitForBit) {
   const Surface source = Corridor(true, 1);
   const Surface target = Moved(pose_, Corridor(true, 2));
   const auto one = Measure(source, target, pose_, 1);
@@ -177,7 +177,7 @@ TEST_F(StructureHoldTest, NumberOfThreadsDoesNotMatterBitForBit) {
   EXPECT_EQ(one->weakest_level_share, three->weakest_level_share);
 }
 
-TEST_F(StructureHoldTest, FewPointsThatAreMetHaveNone) {
+TEST_F(SurfaceObservabilityTest, FewPointsThatAreMetHaveNone) {
   const Surface target = Corridor(true, 1);
   Rigid3 far = pose_;
   far.translation.z() = 100.0;
@@ -187,7 +187,7 @@ TEST_F(StructureHoldTest, FewPointsThatAreMetHaveNone) {
   EXPECT_FALSE(Measure(target, none, Rigid3()).has_value());
 }
 
-TEST_F(StructureHoldTest, FarFromTheOriginItIsTheSame) {
+TEST_F(SurfaceObservabilityTest, FarFromTheOriginItIsTheSame) {
   const Surface source = Corridor(true, 1);
   const Surface target = Corridor(true, 2);
   const Rigid3 away{Eigen::Matrix3d::Identity(), {1e7, -1e7, 1e6}};
@@ -198,9 +198,9 @@ TEST_F(StructureHoldTest, FarFromTheOriginItIsTheSame) {
             1e-6 * near->information.norm());
 }
 
-TEST(StructureHoldOptions, ErrorNamesTheField) {
+TEST(SurfaceObservabilityOptions, ErrorNamesTheField) {
   std::string error;
-  StructureHoldOptions options;
+  SurfaceObservabilityOptions options;
   EXPECT_TRUE(options.IsValid(&error)) << error;
   options.max_distance = 0.0;
   EXPECT_FALSE(options.IsValid(&error));
@@ -236,15 +236,15 @@ TEST(RegisterInACorridor, NamesThePositionAlongIt) {
     target.points = truth.Apply(target.points);
     const auto summary = Register(scan(has_end, 1), target, options);
     ASSERT_TRUE(summary.solution.covariance.has_value()) << summary.error;
-    ASSERT_TRUE(summary.structure_hold.has_value());
+    ASSERT_TRUE(summary.surface_observability.has_value());
     bool is_named = false;
-    for (const auto& direction : summary.solution.covariance->unheld) {
-      is_named |= direction.reason == NotHeld::kNoSurface &&
+    for (const auto& direction : summary.solution.covariance->unobservable) {
+      is_named |= direction.reason == UnobservableReason::kNoSurface &&
                   direction.freedom == Freedom::kTranslation &&
                   std::abs(direction.axis.dot(truth.rotation.col(0))) > 0.999;
     }
     EXPECT_EQ(is_named, !has_end)
-        << summary.structure_hold->weakest_level_share;
+        << summary.surface_observability->weakest_level_share;
   }
 }
 

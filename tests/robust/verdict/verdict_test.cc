@@ -56,8 +56,8 @@ TEST(Judge, RegistersAGoodConsensus) {
     const Verdict verdict = JudgeTruth(problem);
     EXPECT_TRUE(verdict.IsRegistered()) << verdict.reason;
     EXPECT_EQ(verdict.num_matches, num_inliers + 200);
-    EXPECT_GE(verdict.num_agreeing, num_inliers);
-    EXPECT_LT(verdict.num_agreeing, num_inliers + 3);
+    EXPECT_GE(verdict.num_inliers, num_inliers);
+    EXPECT_LT(verdict.num_inliers, num_inliers + 3);
     EXPECT_LE(Log10FalseAlarms(verdict), -3.0);
   }
 }
@@ -74,7 +74,7 @@ TEST(Judge, OfACrowdIsAmbiguous) {
   const Verdict verdict = JudgeTruth(MakeMatchedProblem(
       {.num_inliers = 100, .half_widths = {0.05, 0.05, 0.05}}, /*seed=*/5));
   EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
-  EXPECT_GT(verdict.num_agreeing, 50);
+  EXPECT_GT(verdict.num_inliers, 50);
 }
 
 TEST(Judge, OfTooFewMatchesIsAmbiguous) {
@@ -96,7 +96,7 @@ TEST(Judge, CopiesAreNoEvidence) {
                               std::nullopt,
                               {});
   EXPECT_EQ(twice.num_matches, once.num_matches);
-  EXPECT_EQ(twice.num_agreeing, once.num_agreeing);
+  EXPECT_EQ(twice.num_inliers, once.num_inliers);
   EXPECT_EQ(Log10FalseAlarms(twice), Log10FalseAlarms(once));
   EXPECT_EQ(twice.probability, once.probability);
 }
@@ -116,7 +116,7 @@ TEST(Judge, ReasonNamesTheNumbers) {
   const Verdict verdict = JudgeTruth(
       MakeMatchedProblem({.num_inliers = 30, .num_outliers = 40}, /*seed=*/8));
   EXPECT_THAT(verdict.reason,
-              HasSubstr(std::to_string(verdict.num_agreeing) + " of 70 "));
+              HasSubstr(std::to_string(verdict.num_inliers) + " of 70 "));
   EXPECT_THAT(verdict.reason,
               HasSubstr("1e" + std::to_string(static_cast<int>(
                                    -Log10FalseAlarms(verdict)))));
@@ -166,7 +166,7 @@ TEST(Judge, DoesNotRegisterOneOfTwoTwins) {
   const Verdict verdict = JudgeTruth(problem);
   EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
   ASSERT_TRUE(verdict.rival);
-  EXPECT_GE(verdict.rival->num_agreeing, 38);
+  EXPECT_GE(verdict.rival->num_inliers, 38);
   EXPECT_THAT(verdict.reason, HasSubstr("agree with another"));
   EXPECT_THAT(verdict.reason, HasSubstr("180 deg"));
 }

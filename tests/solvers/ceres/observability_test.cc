@@ -34,13 +34,13 @@ Matrix6 SurfaceInformation(const Surface& surface,
 
 std::vector<DirectionInformation> NotHeldBy(const Surface& surface,
                                             const Eigen::Vector3d& center) {
-  std::vector<DirectionInformation> unheld;
+  std::vector<DirectionInformation> unobservable;
   const double floor = 1e-9 * static_cast<double>(surface.points.cols());
   for (const auto& direction :
        SplitInformation(SurfaceInformation(surface, center), center, floor)) {
-    if (direction.information < floor) unheld.push_back(direction);
+    if (direction.information < floor) unobservable.push_back(direction);
   }
-  return unheld;
+  return unobservable;
 }
 
 double DistanceFromAxis(const Eigen::Vector3d& point,
@@ -54,15 +54,15 @@ TEST(SplitInformation, APlaneHoldsNoPositionInItAndNoTurnAboutItsNormal) {
   Surface plane = RandomPlane(100, 10.0, 1);
   plane.points = (R * plane.points).colwise() + Eigen::Vector3d(3.0, 1.0, 2.0);
   plane.normals = R * plane.normals;
-  const auto unheld = NotHeldBy(plane, {3.5, 1.0, 2.0});
-  ASSERT_EQ(unheld.size(), 3u);
+  const auto unobservable = NotHeldBy(plane, {3.5, 1.0, 2.0});
+  ASSERT_EQ(unobservable.size(), 3u);
   const Eigen::Vector3d normal = R.col(2);
   for (const int i : {0, 1}) {
-    EXPECT_EQ(unheld[i].freedom, Freedom::kTranslation);
-    EXPECT_NEAR(unheld[i].axis.dot(normal), 0.0, 1e-9);
+    EXPECT_EQ(unobservable[i].freedom, Freedom::kTranslation);
+    EXPECT_NEAR(unobservable[i].axis.dot(normal), 0.0, 1e-9);
   }
-  EXPECT_EQ(unheld[2].freedom, Freedom::kRotation);
-  EXPECT_NEAR(std::abs(unheld[2].axis.dot(normal)), 1.0, 1e-9);
+  EXPECT_EQ(unobservable[2].freedom, Freedom::kRotation);
+  EXPECT_NEAR(std::abs(unobservable[2].axis.dot(normal)), 1.0, 1e-9);
 }
 
 TEST(SplitInformation, ACylinderTurnsAndSlidesAlongItsOwnAxis) {
@@ -72,22 +72,23 @@ TEST(SplitInformation, ACylinderTurnsAndSlidesAlongItsOwnAxis) {
   cylinder.points = (R * cylinder.points).colwise() + foot;
   cylinder.normals = R * cylinder.normals;
   // About a point that is not on it.
-  const auto unheld = NotHeldBy(cylinder, foot + Eigen::Vector3d(1.0, 2.0, 3));
-  ASSERT_EQ(unheld.size(), 2u);
-  EXPECT_EQ(unheld[0].freedom, Freedom::kTranslation);
-  EXPECT_NEAR(std::abs(unheld[0].axis.dot(R.col(2))), 1.0, 1e-9);
-  EXPECT_EQ(unheld[1].freedom, Freedom::kRotation);
-  EXPECT_NEAR(std::abs(unheld[1].axis.dot(R.col(2))), 1.0, 1e-9);
-  EXPECT_LT(DistanceFromAxis(unheld[1].point, foot, R.col(2)), 1e-6);
+  const auto unobservable =
+      NotHeldBy(cylinder, foot + Eigen::Vector3d(1.0, 2.0, 3));
+  ASSERT_EQ(unobservable.size(), 2u);
+  EXPECT_EQ(unobservable[0].freedom, Freedom::kTranslation);
+  EXPECT_NEAR(std::abs(unobservable[0].axis.dot(R.col(2))), 1.0, 1e-9);
+  EXPECT_EQ(unobservable[1].freedom, Freedom::kRotation);
+  EXPECT_NEAR(std::abs(unobservable[1].axis.dot(R.col(2))), 1.0, 1e-9);
+  EXPECT_LT(DistanceFromAxis(unobservable[1].point, foot, R.col(2)), 1e-6);
 }
 
 TEST(SplitInformation, ASphereTurnsAboutItsMiddle) {
   const Eigen::Vector3d middle(2.0, -3.0, 4.0);
   Surface sphere = RandomSphere(200, 2.0, 3);
   sphere.points.colwise() += middle;
-  const auto unheld = NotHeldBy(sphere, {2.5, -3.0, 3.0});
-  ASSERT_EQ(unheld.size(), 3u);
-  for (const DirectionInformation& direction : unheld) {
+  const auto unobservable = NotHeldBy(sphere, {2.5, -3.0, 3.0});
+  ASSERT_EQ(unobservable.size(), 3u);
+  for (const DirectionInformation& direction : unobservable) {
     EXPECT_EQ(direction.freedom, Freedom::kRotation);
     EXPECT_LT(DistanceFromAxis(middle, direction.point, direction.axis), 1e-6);
   }
@@ -115,15 +116,15 @@ TEST(SplitInformation, IsABlockDecomposition) {
   }
 }
 
-TEST(UnheldDirection, SaysWhichAndWhy) {
-  UnheldDirection direction;
+TEST(UnobservableDirection, SaysWhichAndWhy) {
+  UnobservableDirection direction;
   direction.freedom = Freedom::kTranslation;
-  direction.reason = NotHeld::kNoSurface;
+  direction.reason = UnobservableReason::kNoSurface;
   direction.axis = {0.94, 0.342, -1e-9};
   EXPECT_EQ(direction.Describe(),
             "position along the axis (0.94, 0.34, 0.00): no surface stands "
             "across it");
-  direction.reason = NotHeld::kUncertain;
+  direction.reason = UnobservableReason::kUncertain;
   direction.standard_deviation = 0.5;
   EXPECT_THAT(direction.Describe(), HasSubstr("standard deviation 0.5 m"));
   direction.freedom = Freedom::kRotation;
@@ -132,12 +133,12 @@ TEST(UnheldDirection, SaysWhichAndWhy) {
   EXPECT_EQ(direction.Describe(),
             "rotation about the axis (0.94, 0.34, 0.00) through (12.3, -5.0, "
             "0.0): standard deviation 1 deg");
-  direction.reason = NotHeld::kAssumed;
+  direction.reason = UnobservableReason::kAssumed;
   EXPECT_THAT(direction.Describe(), HasSubstr("not estimated, assumed with"));
   direction.standard_deviation.reset();
-  direction.reason = NotHeld::kNoData;
+  direction.reason = UnobservableReason::kNoData;
   EXPECT_THAT(direction.Describe(), HasSubstr("unbounded"));
-  direction.reason = NotHeld::kWithinNoise;
+  direction.reason = UnobservableReason::kWithinNoise;
   EXPECT_THAT(direction.Describe(), HasSubstr("within the noise"));
 }
 

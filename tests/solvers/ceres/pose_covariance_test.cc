@@ -234,7 +234,7 @@ TEST_F(PoseCovarianceTest, IsTwiceTheInverseCurvatureOfTheClosedForm) {
   ASSERT_TRUE(result.covariance_at_center.has_value());
   EXPECT_LT((*result.covariance_at_center - expected).norm(),
             1e-9 * expected.norm());
-  EXPECT_TRUE(result.unheld.empty()) << result.unheld[0].Describe();
+  EXPECT_TRUE(result.unobservable.empty()) << result.unobservable[0].Describe();
   EXPECT_EQ(result.message, "held");
 }
 
@@ -355,11 +355,11 @@ TEST_F(PoseCovarianceTest, SigmaCanBeTheResiduals) {
 }
 
 // The rotations of `result` that nothing holds.
-std::vector<UnheldDirection> Unheld(const PoseCovariance& result,
-                                    Freedom freedom,
-                                    NotHeld reason) {
-  std::vector<UnheldDirection> directions;
-  for (const UnheldDirection& direction : result.unheld) {
+std::vector<UnobservableDirection> Unobservable(const PoseCovariance& result,
+                                                Freedom freedom,
+                                                UnobservableReason reason) {
+  std::vector<UnobservableDirection> directions;
+  for (const UnobservableDirection& direction : result.unobservable) {
     if (direction.freedom == freedom && direction.reason == reason) {
       directions.push_back(direction);
     }
@@ -370,16 +370,16 @@ std::vector<UnheldDirection> Unheld(const PoseCovariance& result,
 void ExpectNoCovariance(const PoseCovariance& result) {
   EXPECT_FALSE(result.covariance.has_value());
   EXPECT_FALSE(result.covariance_at_center.has_value());
-  EXPECT_FALSE(result.unheld.empty());
+  EXPECT_FALSE(result.unobservable.empty());
   EXPECT_THAT(result.message, HasSubstr("matches hold"));
-  EXPECT_THAT(result.message, HasSubstr(result.unheld[0].Describe()));
+  EXPECT_THAT(result.message, HasSubstr(result.unobservable[0].Describe()));
 }
 
 TEST_F(PoseCovarianceTest, NoMatchesHoldNothing) {
   const PoseCovariance result = Compute(Points(3, 0), Points(3, 0), pose_);
   ExpectNoCovariance(result);
   EXPECT_EQ(result.rank, 0);
-  EXPECT_EQ(result.unheld.size(), 6u);
+  EXPECT_EQ(result.unobservable.size(), 6u);
   EXPECT_FALSE(result.estimated_sigma.has_value());
 }
 
@@ -388,9 +388,9 @@ TEST_F(PoseCovarianceTest, OneMatchHoldsAPositionAndNoTurnAboutIt) {
       Compute(source_.leftCols(1), target_.leftCols(1), pose_);
   ExpectNoCovariance(result);
   EXPECT_EQ(result.rank, 3);
-  EXPECT_EQ(result.unheld.size(), 3u);
+  EXPECT_EQ(result.unobservable.size(), 3u);
   for (const auto& direction :
-       Unheld(result, Freedom::kRotation, NotHeld::kNoData)) {
+       Unobservable(result, Freedom::kRotation, UnobservableReason::kNoData)) {
     EXPECT_LT((direction.point - exact_.col(0)).norm(), 1e-9);
     EXPECT_FALSE(direction.standard_deviation.has_value());
   }
@@ -399,10 +399,13 @@ TEST_F(PoseCovarianceTest, OneMatchHoldsAPositionAndNoTurnAboutIt) {
       Compute(source_.leftCols(1), target_.leftCols(1), pose_);
   ExpectNoCovariance(yaw);
   EXPECT_EQ(yaw.rank, 3);
-  const auto turns = Unheld(yaw, Freedom::kRotation, NotHeld::kNoData);
+  const auto turns =
+      Unobservable(yaw, Freedom::kRotation, UnobservableReason::kNoData);
   ASSERT_EQ(turns.size(), 1u);
   EXPECT_EQ(turns[0].axis, Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(Unheld(yaw, Freedom::kRotation, NotHeld::kAssumed).size(), 2u);
+  EXPECT_EQ(Unobservable(yaw, Freedom::kRotation, UnobservableReason::kAssumed)
+                .size(),
+            2u);
 }
 
 TEST_F(PoseCovarianceTest, IdenticalMatchesAreOne) {
@@ -410,7 +413,10 @@ TEST_F(PoseCovarianceTest, IdenticalMatchesAreOne) {
   const PoseCovariance result = Compute(source, pose_.Apply(source), pose_);
   ExpectNoCovariance(result);
   EXPECT_EQ(result.rank, 3);
-  EXPECT_EQ(Unheld(result, Freedom::kRotation, NotHeld::kNoData).size(), 3u);
+  EXPECT_EQ(
+      Unobservable(result, Freedom::kRotation, UnobservableReason::kNoData)
+          .size(),
+      3u);
 }
 
 TEST_F(PoseCovarianceTest, TwoMatchesHoldAYawButNoTurnAboutTheirLine) {
@@ -418,9 +424,9 @@ TEST_F(PoseCovarianceTest, TwoMatchesHoldAYawButNoTurnAboutTheirLine) {
       Compute(source_.leftCols(2), exact_.leftCols(2), pose_);
   ExpectNoCovariance(result);
   EXPECT_EQ(result.rank, 5);
-  ASSERT_EQ(result.unheld.size(), 1u);
+  ASSERT_EQ(result.unobservable.size(), 1u);
   const Eigen::Vector3d line = (exact_.col(1) - exact_.col(0)).normalized();
-  EXPECT_NEAR(std::abs(result.unheld[0].axis.dot(line)), 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(result.unobservable[0].axis.dot(line)), 1.0, 1e-9);
 
   options_.model = PoseModel::kYawTranslation;
   const PoseCovariance yaw =
@@ -440,11 +446,13 @@ TEST_F(PoseCovarianceTest, MatchesOnALineHoldNoTurnAboutIt) {
     }
     const PoseCovariance result = Compute(source, pose_.Apply(source), pose_);
     ExpectNoCovariance(result);
-    ASSERT_EQ(result.unheld.size(), 1u) << far << ": " << result.message;
-    EXPECT_EQ(result.unheld[0].freedom, Freedom::kRotation);
-    EXPECT_EQ(result.unheld[0].reason, NotHeld::kNoData);
+    ASSERT_EQ(result.unobservable.size(), 1u) << far << ": " << result.message;
+    EXPECT_EQ(result.unobservable[0].freedom, Freedom::kRotation);
+    EXPECT_EQ(result.unobservable[0].reason, UnobservableReason::kNoData);
     EXPECT_NEAR(
-        std::abs(result.unheld[0].axis.dot(pose_.rotation * line)), 1.0, 1e-9)
+        std::abs(result.unobservable[0].axis.dot(pose_.rotation * line)),
+        1.0,
+        1e-9)
         << far;
   }
 }
@@ -459,15 +467,16 @@ TEST_F(PoseCovarianceTest, APoleHoldsNoTurnAboutItHoweverManyItsMatches) {
   const PoseCovariance rigid = Compute(source, target, pose_);
   ExpectNoCovariance(rigid);
   EXPECT_EQ(rigid.rank, 6);  // As far as numbers go.
-  ASSERT_EQ(rigid.unheld.size(), 1u);
-  EXPECT_EQ(rigid.unheld[0].reason, NotHeld::kWithinNoise);
-  EXPECT_GT(std::abs(rigid.unheld[0].axis.dot(pose_.rotation.col(2))), 0.999);
+  ASSERT_EQ(rigid.unobservable.size(), 1u);
+  EXPECT_EQ(rigid.unobservable[0].reason, UnobservableReason::kWithinNoise);
+  EXPECT_GT(std::abs(rigid.unobservable[0].axis.dot(pose_.rotation.col(2))),
+            0.999);
 
   options_.model = PoseModel::kYawTranslation;
   options_.up_in_target = pose_.rotation.col(2);
   const PoseCovariance yaw = Compute(source, target, pose_);
   ExpectNoCovariance(yaw);
-  EXPECT_EQ(yaw.unheld[0].reason, NotHeld::kWithinNoise);
+  EXPECT_EQ(yaw.unobservable[0].reason, UnobservableReason::kWithinNoise);
 
   // With an INS the tilt is held, and the yaw as little as before.
   options_.model = PoseModel::kRigid;
@@ -475,8 +484,8 @@ TEST_F(PoseCovarianceTest, APoleHoldsNoTurnAboutItHoweverManyItsMatches) {
   options_.prior->up_in_target = pose_.rotation.col(2);
   const PoseCovariance fused = Compute(source, target, pose_);
   ExpectNoCovariance(fused);
-  ASSERT_EQ(fused.unheld.size(), 1u);
-  EXPECT_EQ(fused.unheld[0].reason, NotHeld::kWithinNoise);
+  ASSERT_EQ(fused.unobservable.size(), 1u);
+  EXPECT_EQ(fused.unobservable[0].reason, UnobservableReason::kWithinNoise);
 }
 
 TEST_F(PoseCovarianceTest, AnInsHoldsTheTiltThatALevelLineDoesNot) {
@@ -499,11 +508,11 @@ TEST_F(PoseCovarianceTest, WhatIsUncertainIsNamedWithItsDeviation) {
   options_.max_translation_std = 1e-9;
   const PoseCovariance result = Compute(source_, target_, pose_);
   ASSERT_TRUE(result.covariance.has_value());
-  EXPECT_EQ(result.unheld.size(), 6u);
-  const auto positions =
-      Unheld(result, Freedom::kTranslation, NotHeld::kUncertain);
+  EXPECT_EQ(result.unobservable.size(), 6u);
+  const auto positions = Unobservable(
+      result, Freedom::kTranslation, UnobservableReason::kUncertain);
   ASSERT_EQ(positions.size(), 3u);
-  for (const UnheldDirection& direction : positions) {
+  for (const UnobservableDirection& direction : positions) {
     EXPECT_NEAR(*direction.standard_deviation,
                 kSigma / std::sqrt(static_cast<double>(kNumMatches)),
                 1e-9);
@@ -515,9 +524,10 @@ TEST_F(PoseCovarianceTest, RollAndPitchThatWereAssumedAreNotCertain) {
   options_.tilt_std = 0.02;
   options_.up_in_target = RandomDirection(3);
   const PoseCovariance result = Compute(source_, target_, pose_);
-  const auto assumed = Unheld(result, Freedom::kRotation, NotHeld::kAssumed);
+  const auto assumed =
+      Unobservable(result, Freedom::kRotation, UnobservableReason::kAssumed);
   ASSERT_EQ(assumed.size(), 2u);
-  for (const UnheldDirection& direction : assumed) {
+  for (const UnobservableDirection& direction : assumed) {
     EXPECT_NEAR(direction.axis.dot(options_.up_in_target), 0.0, 1e-12);
     EXPECT_EQ(direction.standard_deviation, 0.02);
     const Eigen::Vector3d& w = direction.axis;

@@ -19,8 +19,8 @@
 // poses the same rate (counts are Poisson): below 2 or so, neither is preferred
 // by the matches.
 
-#ifndef QUATRO_ROBUST_VERDICT_RIVAL_H_
-#define QUATRO_ROBUST_VERDICT_RIVAL_H_
+#ifndef QUATRO_ROBUST_VERDICT_MATCH_RIVAL_H_
+#define QUATRO_ROBUST_VERDICT_MATCH_RIVAL_H_
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -33,7 +33,7 @@
 namespace quatro {
 
 // From where on another pose is another answer, and how hard it is looked for.
-struct RivalOptions {
+struct MatchRivalOptions {
   // A rival turns by this [rad], or moves the middle of the matches that agree
   // by this many noise bounds. Nearer poses are the same answer.
   double min_rotation = 0.1745;
@@ -56,9 +56,9 @@ struct RivalOptions {
 };
 
 // The best other pose by matches.
-struct Rival {
+struct MatchRival {
   Rigid3 target_from_source;
-  Eigen::Index num_agreeing = 0;  // l
+  Eigen::Index num_inliers = 0;  // l
   bool has_same_matches = false;
   double margin = 0.0;  // (1)
 };
@@ -66,12 +66,12 @@ struct Rival {
 // The rival with which most matches agree. `noise_bound` [m], on each axis.
 // Columns are matches, each there once. Nullopt if no two matches agree with
 // any.
-std::optional<Rival> FindRival(const PointsRef& source,
-                               const PointsRef& target,
-                               const Rigid3& target_from_source,
-                               double noise_bound,
-                               const RivalOptions& options);
+std::optional<MatchRival> FindMatchRival(const PointsRef& source,
+                                         const PointsRef& target,
+                                         const Rigid3& target_from_source,
+                                         double noise_bound,
+                                         const MatchRivalOptions& options);
 
 }  // namespace quatro
 
-#endif  // QUATRO_ROBUST_VERDICT_RIVAL_H_
+#endif  // QUATRO_ROBUST_VERDICT_MATCH_RIVAL_H_

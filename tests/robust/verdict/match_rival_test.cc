@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "robust/verdict/rival.h"
+#include "robust/verdict/match_rival.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,13 +23,13 @@ using ::testing::HasSubstr;
 constexpr double kBound = 0.3;  // [m]
 constexpr double kDegree = M_PI / 180.0;
 
-std::optional<Rival> Find(const KnownProblem& problem,
-                          const RivalOptions& options = {}) {
-  return FindRival(problem.source,
-                   problem.target,
-                   problem.true_target_from_source,
-                   kBound,
-                   options);
+std::optional<MatchRival> Find(const KnownProblem& problem,
+                               const MatchRivalOptions& options = {}) {
+  return FindMatchRival(problem.source,
+                        problem.target,
+                        problem.true_target_from_source,
+                        kBound,
+                        options);
 }
 
 // The first `num_twins` of the inliers are matched as the twin would have it.
@@ -46,7 +46,7 @@ KnownProblem MakeTwins(const Rigid3& twin,
   return problem;
 }
 
-TEST(Rival, IsTheTwinOfTheWholePlace) {
+TEST(MatchRival, IsTheTwinOfTheWholePlace) {
   for (const auto& [yaw_deg, shift] :
        {std::pair{180.0, Eigen::Vector3d(3.0, 1.0, 0.0)},
         std::pair{90.0, Eigen::Vector3d(0.0, 0.0, 0.0)},
@@ -62,14 +62,14 @@ TEST(Rival, IsTheTwinOfTheWholePlace) {
                     rival->target_from_source, expected, problem.source),
                 2.0 * kBound)
           << yaw_deg << " deg, seed " << seed;
-      EXPECT_GE(rival->num_agreeing, 30);
-      EXPECT_LE(rival->num_agreeing, 33);
+      EXPECT_GE(rival->num_inliers, 30);
+      EXPECT_LE(rival->num_inliers, 33);
       EXPECT_FALSE(rival->has_same_matches);
     }
   }
 }
 
-TEST(Rival, OfMatchesOnOnePoleAndALuckyOneIsATurnAboutThePole) {
+TEST(MatchRival, OfMatchesOnOnePoleAndALuckyOneIsATurnAboutThePole) {
   Random random(7);
   KnownProblem problem = MakeMatchedProblem(
       {.num_inliers = 20, .num_outliers = 0, .half_widths = {0.1, 0.1, 3.0}},
@@ -82,22 +82,22 @@ TEST(Rival, OfMatchesOnOnePoleAndALuckyOneIsATurnAboutThePole) {
   const auto rival = Find(problem);
   ASSERT_TRUE(rival);
   EXPECT_TRUE(rival->has_same_matches);
-  EXPECT_EQ(rival->num_agreeing, 20);
+  EXPECT_EQ(rival->num_inliers, 20);
   EXPECT_NEAR(rival->margin, 1.0 / std::sqrt(41.0), 1e-12);
 }
 
-TEST(Rival, OfAGoodConsensusIsFarBehind) {
+TEST(MatchRival, OfAGoodConsensusIsFarBehind) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 40, .num_outliers = 400}, seed);
     const auto rival = Find(problem);
     if (!rival) continue;
-    EXPECT_LE(rival->num_agreeing, 8) << "seed " << seed;
+    EXPECT_LE(rival->num_inliers, 8) << "seed " << seed;
     EXPECT_GE(rival->margin, 4.0) << "seed " << seed;
   }
 }
 
-TEST(Rival, IsNeverThePoseItself) {
+TEST(MatchRival, IsNeverThePoseItself) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const KnownProblem problem = MakeMatchedProblem(
         {.num_inliers = 60, .num_outliers = 100, .noise = 0.5}, seed);
@@ -113,53 +113,53 @@ TEST(Rival, IsNeverThePoseItself) {
   }
 }
 
-TEST(Rival, MarginIsEquationOneAndNegativeWhereTheRivalIsBetter) {
+TEST(MatchRival, MarginIsEquationOneAndNegativeWhereTheRivalIsBetter) {
   const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d::Zero()};
   const KnownProblem problem = MakeTwins(twin, 20, 60, /*seed=*/3);
   const auto rival = Find(problem);
   ASSERT_TRUE(rival);
-  EXPECT_GE(rival->num_agreeing, 60);
+  EXPECT_GE(rival->num_inliers, 60);
   EXPECT_LT(rival->margin, -3.0);
 }
 
-TEST(Rival, MovesWithTheFramesAndKeepsItsCount) {
+TEST(MatchRival, MovesWithTheFramesAndKeepsItsCount) {
   const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d(1.0, 2.0, 0.0)};
   const KnownProblem problem = MakeTwins(twin, 40, 30, /*seed=*/4);
   const Rigid3 turn{RotationZ(0.7), Eigen::Vector3d(100.0, -50.0, 3.0)};
   const auto rival = Find(problem);
-  const auto moved = FindRival(problem.source,
-                               turn.Apply(problem.target),
-                               turn * problem.true_target_from_source,
-                               kBound,
-                               {});
+  const auto moved = FindMatchRival(problem.source,
+                                    turn.Apply(problem.target),
+                                    turn * problem.true_target_from_source,
+                                    kBound,
+                                    {});
   ASSERT_TRUE(rival && moved);
   EXPECT_LE(LargestDisplacement(moved->target_from_source,
                                 turn * rival->target_from_source,
                                 problem.source),
             kBound);
-  EXPECT_EQ(moved->num_agreeing, rival->num_agreeing);
+  EXPECT_EQ(moved->num_inliers, rival->num_inliers);
 }
 
-TEST(Rival, TurnsAboutTheVerticalThatIsGiven) {
+TEST(MatchRival, TurnsAboutTheVerticalThatIsGiven) {
   const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d(1.0, 2.0, 0.0)};
   const KnownProblem problem = MakeTwins(twin, 40, 30, /*seed=*/4);
   // Up is x now.
   Rigid3 lay;
   lay.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  const auto rival = FindRival(problem.source,
-                               lay.Apply(problem.target),
-                               lay * problem.true_target_from_source,
-                               kBound,
-                               {.up_in_target = Eigen::Vector3d::UnitX()});
+  const auto rival = FindMatchRival(problem.source,
+                                    lay.Apply(problem.target),
+                                    lay * problem.true_target_from_source,
+                                    kBound,
+                                    {.up_in_target = Eigen::Vector3d::UnitX()});
   ASSERT_TRUE(rival);
-  EXPECT_GE(rival->num_agreeing, 30);
+  EXPECT_GE(rival->num_inliers, 30);
   EXPECT_LE(LargestDisplacement(rival->target_from_source,
                                 lay * twin * problem.true_target_from_source,
                                 problem.source),
             2.0 * kBound);
 }
 
-TEST(Rival, DoesNotDependOnTheNumberOfThreads) {
+TEST(MatchRival, DoesNotDependOnTheNumberOfThreads) {
   const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d(1.0, 2.0, 0.0)};
   const KnownProblem problem = MakeTwins(twin, 40, 30, /*seed=*/5);
   const auto one = Find(problem, {.num_threads = 1});
@@ -167,39 +167,40 @@ TEST(Rival, DoesNotDependOnTheNumberOfThreads) {
   ASSERT_TRUE(one && four);
   EXPECT_EQ(one->target_from_source.ToMatrix(),
             four->target_from_source.ToMatrix());
-  EXPECT_EQ(one->num_agreeing, four->num_agreeing);
+  EXPECT_EQ(one->num_inliers, four->num_inliers);
 }
 
-TEST(Rival, OfTooFewMatchesIsNone) {
+TEST(MatchRival, OfTooFewMatchesIsNone) {
   for (const Eigen::Index n : {0, 1}) {
     EXPECT_FALSE(Find(
         MakeMatchedProblem({.num_inliers = n, .num_outliers = 0}, /*seed=*/6)));
   }
 }
 
-TEST(Rival, OfTwoMatchesHasNoMarginToSpeakOf) {
+TEST(MatchRival, OfTwoMatchesHasNoMarginToSpeakOf) {
   const auto rival = Find(
       MakeMatchedProblem({.num_inliers = 2, .num_outliers = 100}, /*seed=*/8));
   ASSERT_TRUE(rival);
   EXPECT_LE(rival->margin, 0.5);
 }
 
-TEST(RivalOptions, ErrorNamesTheFieldThatIsOutOfRange) {
+TEST(MatchRivalOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::string error;
-  EXPECT_TRUE(RivalOptions().IsValid(&error)) << error;
-  EXPECT_FALSE(RivalOptions{.min_rotation = nan}.IsValid(&error));
+  EXPECT_TRUE(MatchRivalOptions().IsValid(&error)) << error;
+  EXPECT_FALSE(MatchRivalOptions{.min_rotation = nan}.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("min_rotation"));
-  EXPECT_FALSE(RivalOptions{.min_shift_factor = 1.0}.IsValid(&error));
+  EXPECT_FALSE(MatchRivalOptions{.min_shift_factor = 1.0}.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("min_shift_factor"));
-  EXPECT_FALSE(RivalOptions{.num_pairs = 0}.IsValid(&error));
+  EXPECT_FALSE(MatchRivalOptions{.num_pairs = 0}.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("num_pairs"));
-  EXPECT_FALSE(RivalOptions{.max_num_matches = 1}.IsValid(&error));
+  EXPECT_FALSE(MatchRivalOptions{.max_num_matches = 1}.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("max_num_matches"));
   EXPECT_FALSE(
-      RivalOptions{.up_in_target = Eigen::Vector3d::Zero()}.IsValid(&error));
+      MatchRivalOptions{.up_in_target = Eigen::Vector3d::Zero()}.IsValid(
+          &error));
   EXPECT_THAT(error, HasSubstr("up_in_target"));
-  EXPECT_FALSE(RivalOptions{.num_threads = -1}.IsValid(&error));
+  EXPECT_FALSE(MatchRivalOptions{.num_threads = -1}.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("num_threads"));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "robust/verdict/rival.h"
+#include "robust/verdict/match_rival.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,10 +61,10 @@ Rigid3 FindTurnOfSameMatches(const Points& moved,
     const Points offsets = target - turn.rotation * moved;
     const auto along_x =
         FindConsensus(offsets, 0, all, bound, &turn.translation.x());
-    const auto agreeing =
+    const auto inliers =
         FindConsensus(offsets, 1, along_x, bound, &turn.translation.y());
-    if (agreeing.size() > most) {
-      most = agreeing.size();
+    if (inliers.size() > most) {
+      most = inliers.size();
       best = turn;
     }
   }
@@ -73,7 +73,7 @@ Rigid3 FindTurnOfSameMatches(const Points& moved,
 
 }  // namespace
 
-bool RivalOptions::IsValid(std::string* error) const {
+bool MatchRivalOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!(min_rotation > 0.0 && min_rotation < M_PI)) {
     problem << "min_rotation = " << min_rotation << ", must be in (0, pi)";
@@ -94,22 +94,22 @@ bool RivalOptions::IsValid(std::string* error) const {
   return error->empty();
 }
 
-std::optional<Rival> FindRival(const PointsRef& source,
-                               const PointsRef& target,
-                               const Rigid3& target_from_source,
-                               double noise_bound,
-                               const RivalOptions& options) {
+std::optional<MatchRival> FindMatchRival(const PointsRef& source,
+                                         const PointsRef& target,
+                                         const Rigid3& target_from_source,
+                                         double noise_bound,
+                                         const MatchRivalOptions& options) {
   if (options.up_in_target != Eigen::Vector3d::UnitZ()) {
     const Rigid3 level{
         RotationBetween(options.up_in_target, Eigen::Vector3d::UnitZ()),
         Eigen::Vector3d::Zero()};
-    RivalOptions level_options = options;
+    MatchRivalOptions level_options = options;
     level_options.up_in_target = Eigen::Vector3d::UnitZ();
-    auto rival = FindRival(source,
-                           level.Apply(target),
-                           level * target_from_source,
-                           noise_bound,
-                           level_options);
+    auto rival = FindMatchRival(source,
+                                level.Apply(target),
+                                level * target_from_source,
+                                noise_bound,
+                                level_options);
     if (rival) {
       rival->target_from_source = Inverse(level) * rival->target_from_source;
     }
@@ -117,18 +117,18 @@ std::optional<Rival> FindRival(const PointsRef& source,
   }
 
   const Points moved = target_from_source.Apply(source);
-  const std::vector<Eigen::Index> agreeing =
-      FindAgreeing(source, target, target_from_source, noise_bound);
+  const std::vector<Eigen::Index> inliers =
+      FindInliers(source, target, target_from_source, noise_bound);
   const double min_shift = options.min_shift_factor * noise_bound;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   std::vector<Rigid3> turns;  // D
 
-  const bool has_same_matches = agreeing.size() >= 2;
+  const bool has_same_matches = inliers.size() >= 2;
   if (has_same_matches) {
-    middle = Columns(target, agreeing).rowwise().mean();
-    std::vector<Eigen::Index> some = agreeing;
+    middle = Columns(target, inliers).rowwise().mean();
+    std::vector<Eigen::Index> some = inliers;
     some.resize(
-        std::min(agreeing.size(), static_cast<std::size_t>(kMaxSameMatches)));
+        std::min(inliers.size(), static_cast<std::size_t>(kMaxSameMatches)));
     Rigid3 turn =
         FindTurnOfSameMatches(Columns(moved, some).colwise() - middle,
                               Columns(target, some).colwise() - middle,
@@ -156,24 +156,24 @@ std::optional<Rival> FindRival(const PointsRef& source,
       SolveArcConsensus(Columns(moved, far), Columns(target, far), arc);
   if (other.IsUsable()) turns.push_back(*other.target_from_source);
 
-  std::optional<Rival> best;
+  std::optional<MatchRival> best;
   for (const Rigid3& turn : turns) {
     if (Eigen::AngleAxisd(turn.rotation).angle() <
             0.999 * options.min_rotation &&
         (turn * middle - middle).norm() <= min_shift) {
       continue;
     }
-    Rival rival;
+    MatchRival rival;
     rival.target_from_source = turn * target_from_source;
     rival.has_same_matches = has_same_matches && &turn == &turns.front();
-    rival.num_agreeing = static_cast<Eigen::Index>(
-        FindAgreeing(source, target, rival.target_from_source, noise_bound)
+    rival.num_inliers = static_cast<Eigen::Index>(
+        FindInliers(source, target, rival.target_from_source, noise_bound)
             .size());
-    const auto k = static_cast<double>(agreeing.size());
-    const auto l = static_cast<double>(rival.num_agreeing);
+    const auto k = static_cast<double>(inliers.size());
+    const auto l = static_cast<double>(rival.num_inliers);
     rival.margin = (k - l) / std::sqrt(std::max(1.0, k + l));
-    if (rival.num_agreeing >= 2 &&
-        (!best || rival.num_agreeing > best->num_agreeing)) {
+    if (rival.num_inliers >= 2 &&
+        (!best || rival.num_inliers > best->num_inliers)) {
       best = rival;
     }
   }

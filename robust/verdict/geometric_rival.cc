@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "robust/verdict/rival_pose.h"
+#include "robust/verdict/geometric_rival.h"
 
 #include <algorithm>
 #include <array>
@@ -155,7 +155,7 @@ Move Refine(Comparison& comparison, Move best, double step, double min_shift) {
 
 }  // namespace
 
-bool RivalPoseOptions::IsValid(std::string* error) const {
+bool GeometricRivalOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!(min_shift > 0.0 && std::isfinite(min_shift))) {
     problem << "min_shift = " << min_shift << ", must be > 0 and finite";
@@ -175,14 +175,14 @@ bool RivalPoseOptions::IsValid(std::string* error) const {
   return error->empty();
 }
 
-RivalPose FindRivalPose(const SurfaceCloud& source,
-                        const SurfaceCloud& target,
-                        const Rigid3& target_from_source,
-                        const Eigen::Vector3d& middle,
-                        const Eigen::Vector3d& direction,
-                        double max_distance,
-                        const RivalPoseOptions& options,
-                        int num_threads) {
+GeometricRival FindGeometricRival(const SurfaceCloud& source,
+                                  const SurfaceCloud& target,
+                                  const Rigid3& target_from_source,
+                                  const Eigen::Vector3d& middle,
+                                  const Eigen::Vector3d& direction,
+                                  double max_distance,
+                                  const GeometricRivalOptions& options,
+                                  int num_threads) {
   std::optional<StructureGrid> source_grid;
   std::optional<StructureGrid> target_grid;
   ParallelDo(
@@ -211,7 +211,7 @@ RivalPose FindRivalPose(const SurfaceCloud& source,
   const Comparison search = compare(searched);
   const Comparison comparison = compare(compared);
 
-  RivalPose result;
+  GeometricRival result;
   result.rival_target_from_source = target_from_source;
   result.overlap = std::max(0.0, Comparison(comparison).Overlap({}));
   // Two of them at max_distance either side leave no gap.

@@ -15,8 +15,8 @@
 // the best are refined in yaw, along the ground and in height. o(X) - o(rival)
 // is near 0 if the pose is not distinct.
 
-#ifndef QUATRO_ROBUST_VERDICT_RIVAL_POSE_H_
-#define QUATRO_ROBUST_VERDICT_RIVAL_POSE_H_
+#ifndef QUATRO_ROBUST_VERDICT_GEOMETRIC_RIVAL_H_
+#define QUATRO_ROBUST_VERDICT_GEOMETRIC_RIVAL_H_
 
 #include <Eigen/Core>
 #include <string>
@@ -27,7 +27,7 @@
 namespace quatro {
 
 // Where another pose is looked for.
-struct RivalPoseOptions {
+struct GeometricRivalOptions {
   double min_shift = 2.0;         // [m]
   double max_shift = 12.0;        // [m], without a turn.
   double max_turned_shift = 8.0;  // [m], after one.
@@ -41,7 +41,7 @@ struct RivalPoseOptions {
 };
 
 // The best other pose by geometry.
-struct RivalPose {
+struct GeometricRival {
   double overlap = 0.0;        // o(X), in [0, 1].
   double rival_overlap = 0.0;  // o(rival); 0 if no rival shares enough space.
   Rigid3 rival_target_from_source;  // X itself if there is none.
@@ -55,15 +55,15 @@ struct RivalPose {
 // length 1, along which to slide first, both in the target's frame. Shares are
 // of structure in both sensors' useful ranges; a rival has at least half as
 // much of it as the pose. `max_distance` as for the overlap [m].
-RivalPose FindRivalPose(const SurfaceCloud& source,
-                        const SurfaceCloud& target,
-                        const Rigid3& target_from_source,
-                        const Eigen::Vector3d& middle,
-                        const Eigen::Vector3d& direction,
-                        double max_distance,
-                        const RivalPoseOptions& options,
-                        int num_threads);
+GeometricRival FindGeometricRival(const SurfaceCloud& source,
+                                  const SurfaceCloud& target,
+                                  const Rigid3& target_from_source,
+                                  const Eigen::Vector3d& middle,
+                                  const Eigen::Vector3d& direction,
+                                  double max_distance,
+                                  const GeometricRivalOptions& options,
+                                  int num_threads);
 
 }  // namespace quatro
 
-#endif  // QUATRO_ROBUST_VERDICT_RIVAL_POSE_H_
+#endif  // QUATRO_ROBUST_VERDICT_GEOMETRIC_RIVAL_H_
