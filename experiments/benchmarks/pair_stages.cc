@@ -367,7 +367,7 @@ void AddRefinement(const Adder& add) {
 
 void AddVerdict(const Adder& add) {
   add("evidence/quatro", Needs::kPose, [](const PairInput& pair, Counters*) {
-    const auto as_surface = [](const DescribedCloud& cloud) -> SurfaceCloud {
+    const auto as_surface = [](const DescribedCloud& cloud) -> DescribedCloud {
       return {cloud.sensor.place,
               *cloud.tree,
               cloud.normals,
@@ -378,8 +378,8 @@ void AddVerdict(const Adder& add) {
     evidence.voxel_size = pair.options.front_end.voxel_size;
     SurfaceObservabilityOptions hold = pair.options.surface_observability;
     hold.max_distance = evidence.MaxDistance();
-    const SurfaceCloud source = as_surface(pair.matched.source);
-    const SurfaceCloud target = as_surface(pair.matched.target);
+    const DescribedCloud source = as_surface(pair.matched.source);
+    const DescribedCloud target = as_surface(pair.matched.target);
     const Rigid3& pose = *pair.summary.target_from_source();
     const int threads = pair.options.num_threads;
     const MutualContacts contacts =

@@ -67,14 +67,14 @@ void RefinementSummary::SetMoved(const Eigen::Vector3d& source_middle,
   moved_rotation = AngleBetween(found.rotation, before.rotation);
 }
 
-AlignmentSummary Align(const AlignmentCloud& source,
-                       const AlignmentCloud& target,
+AlignmentSummary Align(const DescribedCloud& source,
+                       const DescribedCloud& target,
                        const Rigid3& initial_target_from_source,
                        const RefinementOptions& options) {
   switch (options.method) {
     case RefinementMethod::kIcp:
-      return SolveIcp(source.tree.points(),
-                      target.tree,
+      return SolveIcp(source.points(),
+                      *target.tree,
                       initial_target_from_source,
                       options.alignment);
     case RefinementMethod::kGicp: {
@@ -96,8 +96,8 @@ AlignmentSummary Align(const AlignmentCloud& source,
   return {};
 }
 
-RefinementSummary Refine(const AlignmentCloud& source,
-                         const AlignmentCloud& target,
+RefinementSummary Refine(const DescribedCloud& source,
+                         const DescribedCloud& target,
                          const PointsRef& matched_source,
                          const PointsRef& matched_target,
                          double noise_bound,
@@ -113,7 +113,7 @@ RefinementSummary Refine(const AlignmentCloud& source,
   if (!summary.alignment.IsUsable()) return summary;
 
   const Rigid3& refined = *summary.alignment.target_from_source;
-  summary.SetMoved(source.tree.points().rowwise().mean(), refined);
+  summary.SetMoved(source.points().rowwise().mean(), refined);
   if (summary.alignment.termination != AlignmentTermination::kConverged) {
     return summary;
   }

@@ -69,15 +69,15 @@ struct RefinementSummary {
 };
 
 // Local registration by the method, from a pose. kNone gives no answer.
-AlignmentSummary Align(const AlignmentCloud& source,
-                       const AlignmentCloud& target,
+AlignmentSummary Align(const DescribedCloud& source,
+                       const DescribedCloud& target,
                        const Rigid3& initial_target_from_source,
                        const RefinementOptions& options);
 
 // Column i of `matched_source` is matched with column i of `matched_target`;
 // `noise_bound` [m] is theirs.
-RefinementSummary Refine(const AlignmentCloud& source,
-                         const AlignmentCloud& target,
+RefinementSummary Refine(const DescribedCloud& source,
+                         const DescribedCloud& target,
                          const PointsRef& matched_source,
                          const PointsRef& matched_target,
                          double noise_bound,

@@ -11,7 +11,7 @@
 namespace quatro {
 namespace {
 
-SurfaceCloud AsSurface(const DescribedCloud& cloud, const Eigen::Vector3d& up) {
+DescribedCloud AsSurface(const DescribedCloud& cloud, const Eigen::Vector3d& up) {
   return {
       cloud.sensor.place, *cloud.tree, cloud.normals, cloud.sensor.is_scan, up};
 }
@@ -23,9 +23,9 @@ std::optional<GeometricEvidence> WeighGeometry(
     RegistrationSummary* summary) {
   const Rigid3& pose = *summary->solution.target_from_source;
   const LevelFrames frames = MakeLevelFrames(options.ins);
-  const SurfaceCloud source =
+  const DescribedCloud source =
       AsSurface(clouds.source, frames.level_from_source.row(2).transpose());
-  const SurfaceCloud target =
+  const DescribedCloud target =
       AsSurface(clouds.target, frames.level_from_target.row(2).transpose());
   EvidenceOptions evidence;
   evidence.voxel_size = options.front_end.voxel_size;
@@ -89,8 +89,8 @@ RegistrationSummary RegisterMatched(const MatchedClouds& clouds,
   }
   summary.matched_source = clouds.matched_source;
   summary.matched_target = clouds.matched_target;
-  summary.num_source_voxels = clouds.source.tree->points().cols();
-  summary.num_target_voxels = clouds.target.tree->points().cols();
+  summary.num_source_voxels = clouds.source.points().cols();
+  summary.num_target_voxels = clouds.target.points().cols();
   summary.num_mutual_matches = clouds.num_mutual_matches;
   summary.stage_times = clouds.stage_times;
   for (const StageTime& time : clouds.stage_times) {

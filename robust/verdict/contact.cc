@@ -23,13 +23,13 @@ bool AreNormalsAligned(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::abs(a.dot(b)) > kMinNormalCosine;
 }
 
-Contacts FindContacts(const SurfaceCloud& a,
-                      const SurfaceCloud& b,
+Contacts FindContacts(const DescribedCloud& a,
+                      const DescribedCloud& b,
                       const Rigid3& b_from_a,
                       double max_distance,
                       int num_threads) {
   // A place that is not finite is near to nothing.
-  const Points& points = a.tree.points();
+  const Points& points = a.points();
   Points places(3, points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     if (a.normals.col(i).isZero(0.0)) {
@@ -38,11 +38,11 @@ Contacts FindContacts(const SurfaceCloud& a,
       places.col(i) = b_from_a * Eigen::Vector3d(points.col(i));
     }
   }
-  return FindNearestWithin(b.tree, places, max_distance, num_threads);
+  return FindNearestWithin(*b.tree, places, max_distance, num_threads);
 }
 
-MutualContacts FindMutualContacts(const SurfaceCloud& source,
-                                  const SurfaceCloud& target,
+MutualContacts FindMutualContacts(const DescribedCloud& source,
+                                  const DescribedCloud& target,
                                   const Rigid3& target_from_source,
                                   double max_distance,
                                   int num_threads) {

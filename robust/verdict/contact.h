@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "features/base/rigid3.h"
-#include "robust/verdict/surface_cloud.h"
+#include "robust/verdict/structure.h"
 
 namespace quatro {
 
@@ -23,8 +23,8 @@ constexpr std::int32_t kNoContact = -1;
 using Contacts = std::vector<std::int32_t>;
 
 // At one pose, of a's points in b.
-Contacts FindContacts(const SurfaceCloud& a,
-                      const SurfaceCloud& b,
+Contacts FindContacts(const DescribedCloud& a,
+                      const DescribedCloud& b,
                       const Rigid3& b_from_a,
                       double max_distance,
                       int num_threads);
@@ -34,8 +34,8 @@ struct MutualContacts {
   Contacts of_source;
   Contacts of_target;
 };
-MutualContacts FindMutualContacts(const SurfaceCloud& source,
-                                  const SurfaceCloud& target,
+MutualContacts FindMutualContacts(const DescribedCloud& source,
+                                  const DescribedCloud& target,
                                   const Rigid3& target_from_source,
                                   double max_distance,
                                   int num_threads);

@@ -1,19 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What the geometry of two aligned scans says of their pose, as numbers without
-// thresholds.
+// What the geometry of two aligned scans says about their pose, as numbers
+// without thresholds.
 //
-//   met structure     robust/verdict/overlap.h: how much of what stands is met
-//   residual          |n_q . (R p + t - q)| of a met p and its nearest q
-//   free space        robust/verdict/free_space.h: surfaces where a beam passed
-//   weakest share     least eigenvalue of  1/N sum_i m_i m_i^T,             (1)
-//                     m_i the horizontal part of the i-th met normal: what
-//                     holds the pose along the weakest direction, 0 in a
-//                     corridor and 1/2 where all directions are held alike
-//   rival             robust/verdict/geometric_rival.h: where it would fit as
-//   well
+//   structure overlap  the share of the structure of each scan that overlaps
+//                      the other scan (robust/verdict/overlap.h)
+//   residual           |n_q . (R p + t - q)| of an overlapping point p and its
+//                      nearest point q
+//   free space         surfaces in space that the other scan saw to be free
+//                      (robust/verdict/free_space.h)
+//   weakest share      the least eigenvalue of  1/N sum_i m_i m_i^T,        (1)
+//                      with m_i the horizontal part of the i-th overlapping
+//                      normal: how well the least observable direction is
+//                      constrained. 0 in a corridor, 1/2 if all directions are
+//                      constrained alike.
+//   rival              another pose at which the scans overlap as well
+//                      (robust/verdict/geometric_rival.h)
 //
-// All are the same with source and target swapped, but for rounding to cells.
+// Both clouds are level: z is up. All numbers are the same with source and
+// target swapped, except for rounding to cells.
 
 #ifndef QUATRO_ROBUST_VERDICT_EVIDENCE_H_
 #define QUATRO_ROBUST_VERDICT_EVIDENCE_H_
@@ -29,28 +34,31 @@
 
 namespace quatro {
 
-// From how near on a point is met, and where rivals are looked for.
+// When points overlap, and where rivals are searched.
 struct EvidenceOptions {
-  double voxel_size = 0.3;  // Of the clouds [m].
-
-  // A voxel's mean may be off by about its size; two of them by more.
+  // A point overlaps if the other scan has a point within this many voxel
+  // sizes: the mean of a voxel may be off by about the size of the voxel, and
+  // the distance between two means by more.
   double max_distance_in_voxels = 5.0 / 3.0;
 
   GeometricRivalOptions rival;
 
-  // The same [m].
-  double MaxDistance() const { return max_distance_in_voxels * voxel_size; }
+  // The same distance [m].
+  double MaxDistance(double voxel_size) const {
+    return max_distance_in_voxels * voxel_size;
+  }
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// Structure of either scan, in the ways in which the other is a scan.
+// Counts the structure points of each cloud, provided that the other cloud is a
+// scan.
 struct FreeSpace {
   Eigen::Index num_contradicted = 0;
   Eigen::Index num_overlapping = 0;
 
-  // Contradicted of both, in [0, 1]. Nullopt if nothing was tested.
+  // The share of contradicted points, in [0, 1]; nullopt if none was tested.
   std::optional<double> ContradictedShare() const {
     const Eigen::Index num_tested = num_contradicted + num_overlapping;
     if (num_tested == 0) return std::nullopt;
@@ -59,38 +67,35 @@ struct FreeSpace {
   }
 };
 
-// What the clouds say for and against a pose.
+// The evidence that two clouds give for and against a pose.
 struct GeometricEvidence {
   double structure_overlap = 0.0;  // In [0, 1].
-  double median_residual = 0.0;    // Of met points [voxel sizes]; 0 if none.
+  // Of the overlapping points [voxel sizes]; 0 if there are none.
+  double median_residual = 0.0;
 
   FreeSpace free_space;
 
-  // Of equation (1), in the target's frame, z = 0 and its larger part > 0.
+  // The eigenvector of (1), in the target's frame, with z = 0 and its larger
+  // coordinate > 0.
   Eigen::Vector3d weakest_direction = Eigen::Vector3d::UnitX();
   double weakest_share = 0.0;  // In [0, 1/2].
 
   GeometricRival rival;
-  FreeSpace rival_free_space;  // A rival that is contradicted is none.
+  FreeSpace rival_free_space;  // A contradicted rival does not count.
 
   // How much better the pose is than its rival, in [-1, 1].
   double Distinctness() const { return rival.overlap - rival.rival_overlap; }
 };
 
-// Nullopt where the overlap is. The answer is the same for any `num_threads`.
+// `contacts` are those at this pose within options.MaxDistance(voxel_size);
+// `voxel_size` is that of the clouds [m]. Returns nullopt if the overlap cannot
+// be measured. The result is the same for any `num_threads`.
 std::optional<GeometricEvidence> MeasureGeometricEvidence(
-    const SurfaceCloud& source,
-    const SurfaceCloud& target,
-    const Rigid3& target_from_source,
-    const EvidenceOptions& options,
-    int num_threads);
-
-// The same with the contacts at the pose at hand, within MaxDistance().
-std::optional<GeometricEvidence> MeasureGeometricEvidence(
-    const SurfaceCloud& source,
-    const SurfaceCloud& target,
+    const DescribedCloud& source,
+    const DescribedCloud& target,
     const Rigid3& target_from_source,
     const MutualContacts& contacts,
+    double voxel_size,
     const EvidenceOptions& options,
     int num_threads);
 

@@ -158,25 +158,25 @@ Move Refine(Comparison& comparison, Move best, double step, double min_shift) {
 bool GeometricRivalOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!(min_shift > 0.0 && std::isfinite(min_shift))) {
-    problem << "min_shift = " << min_shift << ", must be > 0 and finite";
+    problem << "evidence.rival.min_shift = " << min_shift << ", must be > 0 and finite";
   } else if (!(max_shift >= min_shift && max_shift <= 100.0)) {
-    problem << "max_shift = " << max_shift
+    problem << "evidence.rival.max_shift = " << max_shift
             << ", must be in [min_shift, 100] = [" << min_shift << ", 100]";
   } else if (!(max_turned_shift >= 0.0 && max_turned_shift <= 100.0)) {
-    problem << "max_turned_shift = " << max_turned_shift
+    problem << "evidence.rival.max_turned_shift = " << max_turned_shift
             << ", must be in [0, 100]";
   } else if (num_search_points < 1) {
-    problem << "num_search_points = " << num_search_points << ", must be >= 1";
+    problem << "evidence.rival.num_search_points = " << num_search_points << ", must be >= 1";
   } else if (num_compared_points < 1) {
-    problem << "num_compared_points = " << num_compared_points
+    problem << "evidence.rival.num_compared_points = " << num_compared_points
             << ", must be >= 1";
   }
   *error = problem.str();
   return error->empty();
 }
 
-GeometricRival FindGeometricRival(const SurfaceCloud& source,
-                                  const SurfaceCloud& target,
+GeometricRival FindGeometricRival(const DescribedCloud& source,
+                                  const DescribedCloud& target,
                                   const Rigid3& target_from_source,
                                   const Eigen::Vector3d& middle,
                                   const Eigen::Vector3d& direction,

@@ -55,8 +55,8 @@ struct GeometricRival {
 // length 1, along which to slide first, both in the target's frame. Shares are
 // of structure in both sensors' useful ranges; a rival has at least half as
 // much of it as the pose. `max_distance` as for the overlap [m].
-GeometricRival FindGeometricRival(const SurfaceCloud& source,
-                                  const SurfaceCloud& target,
+GeometricRival FindGeometricRival(const DescribedCloud& source,
+                                  const DescribedCloud& target,
                                   const Rigid3& target_from_source,
                                   const Eigen::Vector3d& middle,
                                   const Eigen::Vector3d& direction,

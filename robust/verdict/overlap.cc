@@ -14,14 +14,14 @@ namespace {
 constexpr std::size_t kMinStructure = 50;
 
 // a's structure in the range of b's sensor, none of it near yet.
-std::vector<StructurePoint> FindCounted(const SurfaceCloud& a,
-                                        const SurfaceCloud& b,
+std::vector<StructurePoint> FindCounted(const DescribedCloud& a,
+                                        const DescribedCloud& b,
                                         const Rigid3& b_from_a) {
-  const Points& points = a.tree.points();
+  const Points& points = a.points();
   const double max_range = UsefulRange(b);
   std::vector<StructurePoint> found;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    if (!IsStructure(a.normals.col(i), a.up)) continue;
+    if (!IsStructure(a.normals.col(i))) continue;
     const Eigen::Vector3d point_in_b =
         b_from_a * Eigen::Vector3d(points.col(i));
     if ((point_in_b - b.sensor).norm() <= max_range) found.push_back({i});
@@ -29,8 +29,8 @@ std::vector<StructurePoint> FindCounted(const SurfaceCloud& a,
   return found;
 }
 
-void SetNearest(const SurfaceCloud& a,
-                const SurfaceCloud& b,
+void SetNearest(const DescribedCloud& a,
+                const DescribedCloud& b,
                 const Rigid3& b_from_a,
                 Eigen::Index nearest,
                 StructurePoint* point) {
@@ -42,8 +42,8 @@ void SetNearest(const SurfaceCloud& a,
 
 }  // namespace
 
-std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
-                                          const SurfaceCloud& b,
+std::vector<StructurePoint> FindStructure(const DescribedCloud& a,
+                                          const DescribedCloud& b,
                                           const Rigid3& b_from_a,
                                           double max_distance,
                                           int num_threads) {
@@ -51,10 +51,10 @@ std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
   Points places(3, static_cast<Eigen::Index>(found.size()));
   for (std::size_t k = 0; k < found.size(); ++k) {
     places.col(static_cast<Eigen::Index>(k)) =
-        b_from_a * Eigen::Vector3d(a.tree.points().col(found[k].index));
+        b_from_a * Eigen::Vector3d(a.points().col(found[k].index));
   }
   const auto nearest =
-      FindNearestWithin(b.tree, places, max_distance, num_threads);
+      FindNearestWithin(*b.tree, places, max_distance, num_threads);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (nearest[k] == kNoneWithin) continue;
     SetNearest(a, b, b_from_a, nearest[k], &found[k]);
@@ -63,8 +63,8 @@ std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
 }
 
 std::vector<StructurePoint> FindStructure(
-    const SurfaceCloud& a,
-    const SurfaceCloud& b,
+    const DescribedCloud& a,
+    const DescribedCloud& b,
     const Rigid3& b_from_a,
     const std::vector<std::int32_t>& contacts) {
   std::vector<StructurePoint> found = FindCounted(a, b, b_from_a);
@@ -84,22 +84,6 @@ std::optional<double> OverlapShare(
       });
   return static_cast<double>(num_overlapping) /
          static_cast<double>(structure.size());
-}
-
-std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
-                                              const SurfaceCloud& target,
-                                              const Rigid3& target_from_source,
-                                              double max_distance,
-                                              int num_threads) {
-  if (source.tree.points().cols() == 0 || target.tree.points().cols() == 0) {
-    return std::nullopt;
-  }
-  const auto of_source = OverlapShare(FindStructure(
-      source, target, target_from_source, max_distance, num_threads));
-  const auto of_target = OverlapShare(FindStructure(
-      target, source, Inverse(target_from_source), max_distance, num_threads));
-  if (!of_source || !of_target) return std::nullopt;
-  return std::min(*of_source, *of_target);
 }
 
 }  // namespace quatro

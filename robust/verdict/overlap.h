@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "features/base/rigid3.h"
-#include "robust/verdict/surface_cloud.h"
+#include "robust/verdict/structure.h"
 
 namespace quatro {
 
@@ -34,31 +34,22 @@ struct StructurePoint {
 };
 
 // Those of a's structure points that count, ascending.
-std::vector<StructurePoint> FindStructure(const SurfaceCloud& a,
-                                          const SurfaceCloud& b,
+std::vector<StructurePoint> FindStructure(const DescribedCloud& a,
+                                          const DescribedCloud& b,
                                           const Rigid3& b_from_a,
                                           double max_distance,
                                           int num_threads);
 
 // The same with a's contacts in b at hand (robust/verdict/contact.h).
 std::vector<StructurePoint> FindStructure(
-    const SurfaceCloud& a,
-    const SurfaceCloud& b,
+    const DescribedCloud& a,
+    const DescribedCloud& b,
     const Rigid3& b_from_a,
     const std::vector<std::int32_t>& contacts);
 
 // The share that is met; nullopt of fewer than 50.
 std::optional<double> OverlapShare(
     const std::vector<StructurePoint>& structure);
-
-// The smaller of the shares of structure of each scan that is met in the other,
-// in [0, 1]; the same with source and target swapped. Nullopt if either has
-// fewer than 50 structure points to look for. `max_distance` [m].
-std::optional<double> MeasureStructureOverlap(const SurfaceCloud& source,
-                                              const SurfaceCloud& target,
-                                              const Rigid3& target_from_source,
-                                              double max_distance,
-                                              int num_threads);
 
 }  // namespace quatro
 

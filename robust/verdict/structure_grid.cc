@@ -30,33 +30,33 @@ std::uint8_t SectorBit(int sector) {
 
 }  // namespace
 
-StructureSample SampleStructure(const SurfaceCloud& cloud,
+StructureSample SampleStructure(const DescribedCloud& cloud,
                                 Eigen::Index num_wanted) {
   std::vector<Eigen::Index> all;
   for (Eigen::Index i = 0; i < cloud.normals.cols(); ++i) {
-    if (IsStructure(cloud.normals.col(i), cloud.up)) all.push_back(i);
+    if (IsStructure(cloud.normals.col(i))) all.push_back(i);
   }
   const auto num_all = static_cast<Eigen::Index>(all.size());
   const Eigen::Index num = std::min(num_all, num_wanted);
   StructureSample sample{Points(3, num), Points(3, num)};
   for (Eigen::Index k = 0; k < num; ++k) {
     const Eigen::Index i = all[static_cast<std::size_t>(k * num_all / num)];
-    sample.points.col(k) = cloud.tree.points().col(i);
+    sample.points.col(k) = cloud.points().col(i);
     sample.normals.col(k) = cloud.normals.col(i);
   }
   return sample;
 }
 
-StructureGrid::StructureGrid(const SurfaceCloud& cloud, double max_distance)
+StructureGrid::StructureGrid(const DescribedCloud& cloud, double max_distance)
     : sensor_(cloud.sensor), max_range_(UsefulRange(cloud)) {
-  const Points& points = cloud.tree.points();
+  const Points& points = cloud.points();
   std::vector<Eigen::Index> structure;
   Eigen::Array3d low = Eigen::Array3d::Zero();
   Eigen::Array3d high = Eigen::Array3d::Zero();
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Eigen::Array3d point = points.col(i) - sensor_;
     if (point.matrix().norm() > max_range_ ||
-        !IsStructure(cloud.normals.col(i), cloud.up)) {
+        !IsStructure(cloud.normals.col(i))) {
       continue;
     }
     if (structure.empty()) low = high = point;

@@ -30,7 +30,7 @@ struct StructureSample {
 };
 
 // At most `num_wanted`, evenly along the cloud.
-StructureSample SampleStructure(const SurfaceCloud& cloud,
+StructureSample SampleStructure(const DescribedCloud& cloud,
                                 Eigen::Index num_wanted);
 
 // A sample turned, ready to be shifted.
@@ -56,7 +56,7 @@ struct OverlapCount {
 class StructureGrid {
  public:
   // Of all structure within useful range. `max_distance` [m].
-  StructureGrid(const SurfaceCloud& cloud, double max_distance);
+  StructureGrid(const DescribedCloud& cloud, double max_distance);
 
   // Of the other scan, as it lies in the grid but for a shift.
   TurnedSample Turn(const StructureSample& sample,

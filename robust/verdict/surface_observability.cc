@@ -17,17 +17,17 @@ namespace {
 constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
 constexpr Eigen::Index kMinOverlapping = 50;
 
-// Points of a that are met in b, and b's normals there, both in b.
+// The points of a that overlap b, and the normals of b there, both in b.
 struct OverlappingPoints {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> normals;
 };
 
-OverlappingPoints FindOverlapping(const SurfaceCloud& a,
-                                  const SurfaceCloud& b,
+OverlappingPoints FindOverlapping(const DescribedCloud& a,
+                                  const DescribedCloud& b,
                                   const Rigid3& b_from_a,
                                   const Contacts& contacts) {
-  const Points& points = a.tree.points();
+  const Points& points = a.points();
   OverlappingPoints result;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const std::int32_t nearest = contacts[static_cast<std::size_t>(i)];
@@ -67,22 +67,22 @@ Sums SumUp(const OverlappingPoints& met, const Eigen::Vector3d& center) {
 
 // In [0, 1].
 double Part(const DirectionInformation& direction,
-            const SurfaceObservability& hold) {
+            const SurfaceObservability& result) {
   if (direction.freedom == Freedom::kTranslation) return direction.information;
   const Eigen::Vector3d& w = direction.axis;
   const double squared_distance =
-      hold.scatter.trace() - w.dot(hold.scatter * w) +
-      w.cross(direction.point - hold.center).squaredNorm();
+      result.scatter.trace() - w.dot(result.scatter * w) +
+      w.cross(direction.point - result.center).squaredNorm();
   return squared_distance > 0.0 ? direction.information / squared_distance
                                 : 0.0;
 }
 
 void NameUnobservable(const SurfaceObservabilityOptions& options,
-                      SurfaceObservability* hold) {
+                      SurfaceObservability* result) {
   for (const DirectionInformation& direction :
-       SplitInformation(hold->information, hold->center, options.min_part)) {
-    if (Part(direction, *hold) >= options.min_part) continue;
-    hold->unobservable.push_back({direction.freedom,
+       SplitInformation(result->information, result->center, options.min_part)) {
+    if (Part(direction, *result) >= options.min_part) continue;
+    result->unobservable.push_back({direction.freedom,
                                   UnobservableReason::kNoSurface,
                                   direction.axis,
                                   direction.point,
@@ -93,39 +93,17 @@ void NameUnobservable(const SurfaceObservabilityOptions& options,
 }  // namespace
 
 bool SurfaceObservabilityOptions::IsValid(std::string* error) const {
+  if (min_part >= 0.0 && min_part < 1.0) return true;
   std::ostringstream problem;
-  if (!(max_distance > 0.0 && std::isfinite(max_distance))) {
-    problem << "surface_observability.max_distance = " << max_distance
-            << ", must be > 0 and finite";
-  } else if (!(min_part >= 0.0 && min_part < 1.0)) {
-    problem << "surface_observability.min_part = " << min_part
-            << ", must be in [0, 1)";
-  }
+  problem << "surface_observability.min_part = " << min_part
+          << ", must be in [0, 1)";
   *error = problem.str();
-  return error->empty();
+  return false;
 }
 
 std::optional<SurfaceObservability> MeasureSurfaceObservability(
-    const SurfaceCloud& source,
-    const SurfaceCloud& target,
-    const Rigid3& target_from_source,
-    const SurfaceObservabilityOptions& options,
-    int num_threads) {
-  return MeasureSurfaceObservability(source,
-                                     target,
-                                     target_from_source,
-                                     FindMutualContacts(source,
-                                                        target,
-                                                        target_from_source,
-                                                        options.max_distance,
-                                                        num_threads),
-                                     options,
-                                     num_threads);
-}
-
-std::optional<SurfaceObservability> MeasureSurfaceObservability(
-    const SurfaceCloud& source,
-    const SurfaceCloud& target,
+    const DescribedCloud& source,
+    const DescribedCloud& target,
     const Rigid3& target_from_source,
     const MutualContacts& contacts,
     const SurfaceObservabilityOptions& options,
@@ -141,10 +119,10 @@ std::optional<SurfaceObservability> MeasureSurfaceObservability(
         of_target = FindOverlapping(
             target, source, Inverse(target_from_source), contacts.of_target);
       });
-  SurfaceObservability hold;
-  hold.num_overlapping = static_cast<Eigen::Index>(of_source.points.size() +
+  SurfaceObservability result;
+  result.num_overlapping = static_cast<Eigen::Index>(of_source.points.size() +
                                                    of_target.points.size());
-  if (hold.num_overlapping < kMinOverlapping) return std::nullopt;
+  if (result.num_overlapping < kMinOverlapping) return std::nullopt;
   for (Eigen::Vector3d& point : of_target.points) {
     point = target_from_source * point;
   }
@@ -153,31 +131,31 @@ std::optional<SurfaceObservability> MeasureSurfaceObservability(
   }
 
   // From a point first, which keeps the digits of coordinates far out.
-  const auto n = static_cast<double>(hold.num_overlapping);
+  const auto n = static_cast<double>(result.num_overlapping);
   const Eigen::Vector3d origin = of_source.points.empty()
                                      ? of_target.points.front()
                                      : of_source.points.front();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& point : of_source.points) mean += point - origin;
   for (const auto& point : of_target.points) mean += point - origin;
-  hold.center = origin + mean / n;
+  result.center = origin + mean / n;
   Sums source_sums, target_sums;
   ParallelDo(
       num_threads,
-      [&] { source_sums = SumUp(of_source, hold.center); },
-      [&] { target_sums = SumUp(of_target, hold.center); });
-  hold.information = (source_sums.information + target_sums.information) / n;
-  hold.scatter = (source_sums.scatter + target_sums.scatter) / n;
-  hold.num_structure = source_sums.num_structure + target_sums.num_structure;
-  if (hold.num_structure > 0) {
+      [&] { source_sums = SumUp(of_source, result.center); },
+      [&] { target_sums = SumUp(of_target, result.center); });
+  result.information = (source_sums.information + target_sums.information) / n;
+  result.scatter = (source_sums.scatter + target_sums.scatter) / n;
+  result.num_structure = source_sums.num_structure + target_sums.num_structure;
+  if (result.num_structure > 0) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> level(
         source_sums.level + target_sums.level);
-    hold.weakest_level_axis.head<2>() = level.eigenvectors().col(0);
-    hold.weakest_level_share =
+    result.weakest_level_axis.head<2>() = level.eigenvectors().col(0);
+    result.weakest_level_share =
         std::max(0.0, level.eigenvalues()[0]) / level.eigenvalues().sum();
   }
-  NameUnobservable(options, &hold);
-  return hold;
+  NameUnobservable(options, &result);
+  return result;
 }
 
 }  // namespace quatro

@@ -34,22 +34,22 @@ Eigen::Matrix3d Information(const Eigen::Vector3d& a,
 
 class GicpTerms final : public AlignmentTerms {
  public:
-  GicpTerms(const AlignmentCloud& source,
-            const AlignmentCloud& target,
+  GicpTerms(const DescribedCloud& source,
+            const DescribedCloud& target,
             double max_distance,
             double epsilon)
       : source_(source),
         target_(target),
         epsilon_(epsilon),
-        nearest_(target.tree, source.tree.points().cols(), max_distance) {}
+        nearest_(*target.tree, source.points().cols(), max_distance) {}
 
-  const Points& source() const override { return source_.tree.points(); }
+  const Points& source() const override { return source_.points(); }
 
   bool Find(Eigen::Index i, const Rigid3& pose, AlignmentTerm* term) override {
     const Eigen::Index j =
         nearest_.Find(i, pose * Eigen::Vector3d(source().col(i)));
     if (j < 0) return false;
-    term->target = target_.tree.points().col(j);
+    term->target = target_.points().col(j);
     term->information = Information(target_.normals.col(j),
                                     pose.rotation * source_.normals.col(i),
                                     epsilon_);
@@ -57,8 +57,8 @@ class GicpTerms final : public AlignmentTerms {
   }
 
  private:
-  const AlignmentCloud source_;
-  const AlignmentCloud target_;
+  const DescribedCloud& source_;
+  const DescribedCloud& target_;
   double epsilon_;
   NearestPoints nearest_;
 };
@@ -79,18 +79,18 @@ bool GicpOptions::IsValid(std::string* error) const {
 }
 
 std::unique_ptr<AlignmentTerms> MakeGicpTerms(
-    const AlignmentCloud& source,
-    const AlignmentCloud& target,
+    const DescribedCloud& source,
+    const DescribedCloud& target,
     double max_correspondence_distance,
     double epsilon) {
-  CHECK_EQ(source.tree.points().cols(), source.normals.cols());
-  CHECK_EQ(target.tree.points().cols(), target.normals.cols());
+  CHECK_EQ(source.points().cols(), source.normals.cols());
+  CHECK_EQ(target.points().cols(), target.normals.cols());
   return std::make_unique<GicpTerms>(
       source, target, max_correspondence_distance, epsilon);
 }
 
-AlignmentSummary SolveGicp(const AlignmentCloud& source,
-                           const AlignmentCloud& target,
+AlignmentSummary SolveGicp(const DescribedCloud& source,
+                           const DescribedCloud& target,
                            const Rigid3& initial_target_from_source,
                            const GicpOptions& options) {
   AlignmentSummary summary;
@@ -118,7 +118,7 @@ AlignmentSummary SolveGicp(const Points& source,
       target,
       options.alignment,
       options.num_neighbors,
-      [&](const AlignmentCloud& from, const AlignmentCloud& onto) {
+      [&](const DescribedCloud& from, const DescribedCloud& onto) {
         return SolveGicp(from, onto, initial_target_from_source, options);
       });
 }
@@ -140,7 +140,7 @@ AlignmentSummary SolveWithNormals(
     const LocalAlignmentOptions& options,
     int num_neighbors,
     const std::function<AlignmentSummary(
-        const AlignmentCloud& source, const AlignmentCloud& target)>& solve) {
+        const DescribedCloud& source, const DescribedCloud& target)>& solve) {
   AlignmentSummary summary;
   if (!CanAlign(source, target, options, &summary)) return summary;
   Stopwatch stopwatch;
@@ -152,8 +152,8 @@ AlignmentSummary SolveWithNormals(
   const Points target_normals =
       EstimateNearestNormals(target_tree, num_neighbors, options.num_threads);
   const double normal_seconds = stopwatch.Lap();
-  summary = solve(AlignmentCloud{source_tree, source_normals},
-                  AlignmentCloud{target_tree, target_normals});
+  summary = solve(DescribedCloud{source_tree, source_normals},
+                  DescribedCloud{target_tree, target_normals});
   summary.stage_times.insert(
       summary.stage_times.begin(),
       {{"trees", tree_seconds}, {"normals", normal_seconds}});

@@ -24,16 +24,10 @@
 
 #include "features/base/rigid3.h"
 #include "features/base/types.h"
-#include "features/kd_tree.h"
+#include "features/described_cloud.h"
 #include "solvers/local/local_alignment.h"
 
 namespace quatro {
-
-// A cloud with the unit normal of each point, either way round, or zero.
-struct AlignmentCloud {
-  const KdTree& tree;
-  const Points& normals;
-};
 
 // The loop, and the shape of a plane.
 struct GicpOptions {
@@ -47,14 +41,14 @@ struct GicpOptions {
 
 // All arguments must outlive the terms.
 std::unique_ptr<AlignmentTerms> MakeGicpTerms(
-    const AlignmentCloud& source,
-    const AlignmentCloud& target,
+    const DescribedCloud& source,
+    const DescribedCloud& target,
     double max_correspondence_distance,
     double epsilon);
 
 // Moves the source onto the target, from the given pose on.
-AlignmentSummary SolveGicp(const AlignmentCloud& source,
-                           const AlignmentCloud& target,
+AlignmentSummary SolveGicp(const DescribedCloud& source,
+                           const DescribedCloud& target,
                            const Rigid3& initial_target_from_source,
                            const GicpOptions& options);
 
@@ -76,8 +70,8 @@ AlignmentSummary SolveWithNormals(
     const Points& target,
     const LocalAlignmentOptions& options,
     int num_neighbors,
-    const std::function<AlignmentSummary(const AlignmentCloud& source,
-                                         const AlignmentCloud& target)>& solve);
+    const std::function<AlignmentSummary(const DescribedCloud& source,
+                                         const DescribedCloud& target)>& solve);
 
 // B or C of (1).
 inline Eigen::Matrix3d SurfaceCovariance(const Eigen::Vector3d& normal,

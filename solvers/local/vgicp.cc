@@ -32,8 +32,8 @@ struct MixedHash {
 
 class VoxelMap {
  public:
-  VoxelMap(const AlignmentCloud& cloud, double voxel_size, double epsilon)
-      : points_(cloud.tree.points()), voxel_size_(voxel_size) {
+  VoxelMap(const DescribedCloud& cloud, double voxel_size, double epsilon)
+      : points_(cloud.points()), voxel_size_(voxel_size) {
     if (points_.cols() == 0) return;
     first_cell_ = Cell(points_.rowwise().minCoeff());
     last_cell_ = Cell(points_.rowwise().maxCoeff());
@@ -81,15 +81,15 @@ class VoxelMap {
 
 class VgicpTerms final : public AlignmentTerms {
  public:
-  VgicpTerms(const AlignmentCloud& source,
-             const AlignmentCloud& target,
+  VgicpTerms(const DescribedCloud& source,
+             const DescribedCloud& target,
              const VgicpOptions& options)
       : source_(source),
         epsilon_(options.epsilon),
         max_distance_(options.alignment.max_correspondence_distance),
         voxels_(target, options.voxel_size, options.epsilon) {}
 
-  const Points& source() const override { return source_.tree.points(); }
+  const Points& source() const override { return source_.points(); }
 
   bool Find(Eigen::Index i, const Rigid3& pose, AlignmentTerm* term) override {
     const Eigen::Vector3d moved = pose * Eigen::Vector3d(source().col(i));
@@ -106,7 +106,7 @@ class VgicpTerms final : public AlignmentTerms {
   }
 
  private:
-  const AlignmentCloud source_;
+  const DescribedCloud& source_;
   double epsilon_;
   double max_distance_;
   VoxelMap voxels_;
@@ -132,21 +132,21 @@ bool VgicpOptions::IsValid(std::string* error) const {
   return GicpOptions{alignment, epsilon, num_neighbors}.IsValid(error);
 }
 
-std::unique_ptr<AlignmentTerms> MakeVgicpTerms(const AlignmentCloud& source,
-                                               const AlignmentCloud& target,
+std::unique_ptr<AlignmentTerms> MakeVgicpTerms(const DescribedCloud& source,
+                                               const DescribedCloud& target,
                                                const VgicpOptions& options) {
-  CHECK_EQ(source.tree.points().cols(), source.normals.cols());
-  CHECK_EQ(target.tree.points().cols(), target.normals.cols());
+  CHECK_EQ(source.points().cols(), source.normals.cols());
+  CHECK_EQ(target.points().cols(), target.normals.cols());
   return std::make_unique<VgicpTerms>(source, target, options);
 }
 
-AlignmentSummary SolveVgicp(const AlignmentCloud& source,
-                            const AlignmentCloud& target,
+AlignmentSummary SolveVgicp(const DescribedCloud& source,
+                            const DescribedCloud& target,
                             const Rigid3& initial_target_from_source,
                             const VgicpOptions& options) {
   AlignmentSummary summary;
   if (!options.IsValid(&summary.message)) return summary;
-  if (!Fits(target.tree.points(), options.voxel_size)) {
+  if (!Fits(target.points(), options.voxel_size)) {
     summary.message = "the target is more than 2^21 voxels wide";
     return summary;
   }
@@ -171,7 +171,7 @@ AlignmentSummary SolveVgicp(const Points& source,
       target,
       options.alignment,
       options.num_neighbors,
-      [&](const AlignmentCloud& from, const AlignmentCloud& onto) {
+      [&](const DescribedCloud& from, const DescribedCloud& onto) {
         return SolveVgicp(from, onto, initial_target_from_source, options);
       });
 }

@@ -40,13 +40,13 @@ struct VgicpOptions {
 
 // The source must outlive the terms. The target must be less than 2^21 voxels
 // wide.
-std::unique_ptr<AlignmentTerms> MakeVgicpTerms(const AlignmentCloud& source,
-                                               const AlignmentCloud& target,
+std::unique_ptr<AlignmentTerms> MakeVgicpTerms(const DescribedCloud& source,
+                                               const DescribedCloud& target,
                                                const VgicpOptions& options);
 
 // Moves the source onto the target, from the given pose on.
-AlignmentSummary SolveVgicp(const AlignmentCloud& source,
-                            const AlignmentCloud& target,
+AlignmentSummary SolveVgicp(const DescribedCloud& source,
+                            const DescribedCloud& target,
                             const Rigid3& initial_target_from_source,
                             const VgicpOptions& options);
 

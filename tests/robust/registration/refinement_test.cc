@@ -23,7 +23,7 @@ constexpr RefinementMethod kMethods[] = {
 struct Prepared {
   explicit Prepared(const Points& points)
       : tree(points), normals(EstimateNearestNormals(tree, 20, 1)) {}
-  AlignmentCloud cloud() const { return {tree, normals}; }
+  DescribedCloud cloud() const { return {tree, normals}; }
 
   KdTree tree;
   Points normals;

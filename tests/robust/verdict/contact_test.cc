@@ -26,10 +26,10 @@ class ContactTest : public ::testing::Test {
     return RandomPoints(400, 1.0, seed).colwise().normalized();
   }
 
-  SurfaceCloud source() const {
+  DescribedCloud source() const {
     return {Eigen::Vector3d::Zero(), source_tree_, source_normals_};
   }
-  SurfaceCloud target() const {
+  DescribedCloud target() const {
     return {Eigen::Vector3d::Zero(), target_tree_, target_normals_};
   }
 
@@ -77,7 +77,7 @@ TEST_F(ContactTest, OfTheTargetAreThoseOfTheInverse) {
 TEST_F(ContactTest, OfCloudsWithoutPointsAreNone) {
   const KdTree none(Points(3, 0));
   const Points no_normals(3, 0);
-  const SurfaceCloud empty{Eigen::Vector3d::Zero(), none, no_normals};
+  const DescribedCloud empty{Eigen::Vector3d::Zero(), none, no_normals};
   EXPECT_TRUE(FindContacts(empty, target(), pose_, kMaxDistance, 1).empty());
   EXPECT_EQ(FindContacts(source(), empty, pose_, kMaxDistance, 1),
             Contacts(400, kNoContact));

@@ -44,7 +44,7 @@ struct Scan {
   Points normals;
   bool is_scan = true;
 
-  operator SurfaceCloud() const { return {sensor, tree, normals, is_scan}; }
+  operator DescribedCloud() const { return {sensor, tree, normals, is_scan}; }
 };
 
 // Points within max_range of the sensor, 12 per square metre of wall 3 m high.
@@ -106,8 +106,8 @@ struct ScanPair {
   Scan target;
 };
 
-GeometricEvidence Measure(const SurfaceCloud& source,
-                          const SurfaceCloud& target,
+GeometricEvidence Measure(const DescribedCloud& source,
+                          const DescribedCloud& target,
                           const Rigid3& target_from_source,
                           int num_threads = 1) {
   const auto evidence = MeasureGeometricEvidence(
@@ -394,7 +394,7 @@ TEST(GeometricEvidence, OfNothingIsNone) {
   const Scan empty{Eigen::Vector3d::Zero(), KdTree(Points(3, 0)), Points(3, 0)};
   const Scan tiny = MakeScan({{{1, 0}, {2, 0}}}, {0, 0, 1}, 0.0, 25.0, 1);
   ASSERT_GT(tiny.tree.points().cols(), 0);
-  const auto expect_none = [](const SurfaceCloud& a, const SurfaceCloud& b) {
+  const auto expect_none = [](const DescribedCloud& a, const DescribedCloud& b) {
     EXPECT_FALSE(
         MeasureGeometricEvidence(a, b, Rigid3(), EvidenceOptions(), 1));
     EXPECT_FALSE(
@@ -409,7 +409,7 @@ TEST(GeometricEvidence, OfNothingIsNone) {
 }
 
 TEST(GeometricEvidence, OfExtremeCloudsIsFinite) {
-  const auto expect_finite = [](const SurfaceCloud& cloud) {
+  const auto expect_finite = [](const DescribedCloud& cloud) {
     const GeometricEvidence evidence = Measure(cloud, cloud, Rigid3());
     EXPECT_EQ(evidence.structure_overlap, 1.0);
     EXPECT_TRUE(std::isfinite(evidence.median_residual));

@@ -25,7 +25,7 @@ struct Scan {
                                 1.0,
                                 Eigen::Vector3d::Zero(),
                                 1)) {}
-  operator SurfaceCloud() const {
+  operator DescribedCloud() const {
     return {Eigen::Vector3d::Zero(), tree, normals};
   }
 
@@ -122,7 +122,7 @@ TEST_F(StructureOverlapTest, WithoutPointsThereIsNone) {
 TEST_F(StructureOverlapTest, SurfacesThatCrossAreNotMet) {
   // The same points with all normals turned by a quarter.
   const Points turned_normals = RotationZ(M_PI / 2) * target_.normals;
-  const SurfaceCloud turned{
+  const DescribedCloud turned{
       Eigen::Vector3d::Zero(), target_.tree, turned_normals};
   EXPECT_LT(
       *MeasureStructureOverlap(turned, target_, Rigid3(), kMaxDistance, 1),

@@ -52,7 +52,7 @@ Surface Corridor(bool has_end, std::uint64_t seed) {
 struct Cloud {
   explicit Cloud(const Surface& surface)
       : tree(surface.points), normals(surface.normals) {}
-  SurfaceCloud view() const { return {Eigen::Vector3d::Zero(), tree, normals}; }
+  DescribedCloud view() const { return {Eigen::Vector3d::Zero(), tree, normals}; }
 
   KdTree tree;
   Points normals;

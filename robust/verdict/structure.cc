@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "robust/verdict/surface_cloud.h"
+#include "robust/verdict/structure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +10,17 @@
 namespace quatro {
 namespace {
 
-constexpr double kMaxVertical = 0.7071;  // |n_up| of a surface at 45 deg.
+constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
 constexpr double kRangeQuantile = 0.75;
 
 }  // namespace
 
-bool IsStructure(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
-  return !normal.isZero(0.0) && std::abs(normal.dot(up)) <= kMaxVertical;
+bool IsStructure(const Eigen::Vector3d& normal) {
+  return !normal.isZero(0.0) && std::abs(normal.z()) <= kMaxVertical;
 }
 
-double UsefulRange(const SurfaceCloud& cloud) {
-  const Points& points = cloud.tree.points();
+double UsefulRange(const DescribedCloud& cloud) {
+  const Points& points = cloud.points();
   std::vector<double> squared(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     squared[static_cast<std::size_t>(i)] =

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A sampled cloud and what is known of the surface at each of its points.
+
+#ifndef QUATRO_FEATURES_DESCRIBED_CLOUD_H_
+#define QUATRO_FEATURES_DESCRIBED_CLOUD_H_
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "features/base/types.h"
+#include "features/kd_tree.h"
+
+namespace quatro {
+
+// Points in a tree, which copies of the cloud share, and a normal per point.
+struct DescribedCloud {
+  std::shared_ptr<const KdTree> tree;
+  Points normals;  // Unit vectors; zero where the normal is unknown.
+
+  // Where the sensor stood, in the frame of the points [m].
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
+
+  // Whether the sensor saw all points from there, so that the space between is
+  // free. False for a cloud in the coordinates of a map: its sensor is assumed
+  // above its middle.
+  bool is_scan = true;
+
+  // [m]
+  const Points& points() const { return tree->points(); }
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_DESCRIBED_CLOUD_H_
