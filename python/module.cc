@@ -10,14 +10,13 @@
 #include <string>
 #include <utility>
 
-#include "features/base/stopwatch.h"
 #include "features/io/cloud_io.h"
 #include "python/arrays.h"
-#include "python/methods.h"
 #include "python/options.h"
 #include "python/summaries.h"
+#include "robust/registration/methods.h"
 #include "robust/registration/presets.h"
-#include "robust/verdict/summary_covariance.h"
+#include "robust/registration/registration.h"
 #include "solvers/local/gicp.h"
 #include "solvers/local/icp.h"
 #include "solvers/local/vgicp.h"
@@ -27,8 +26,8 @@ namespace {
 
 namespace py = pybind11;
 
-// An attitude without a mode would be ignored, and a mode without one is told
-// nothing.
+// An attitude without a mode would be ignored, and a mode without attitudes has
+// nothing to use.
 void CheckIns(const py::dict& options, InsMode mode) {
   for (const char* name : {"source_rpy", "target_rpy"}) {
     if (options.contains(name) == (mode != InsMode::kNone)) continue;
@@ -39,68 +38,37 @@ void CheckIns(const py::dict& options, InsMode mode) {
   }
 }
 
-void Append(OptionList more, OptionList* list) {
-  list->insert(list->end(), more.begin(), more.end());
+const Method& MethodOf(const std::string& name) {
+  std::string error;
+  const Method* method = FindMethod(name, &error);
+  if (method == nullptr) throw py::value_error(error);
+  return *method;
 }
 
-// What solve() and register() are given beside points.
-struct Given {
-  EstimatorOptions estimator;
-  RegistrationOptions registration;
-
-  // Those of matched points, and with clouds the front end's.
-  OptionList Options(const Method& method, bool has_clouds) {
-    QuatroOptions& common = estimator.quatro;
-    OptionList list = {
-        MakeOption("noise_bound",
-                   "[m], > 0, how far a right match may be off.",
-                   &common.noise_bound),
-        MakeOption(
-            "seed", ">= 0, of all that is drawn at random.", &common.seed),
-        MakeOption("num_threads",
-                   "0: one per core. Never changes the answer.",
-                   &common.num_threads),
-        MakeOption("min_probability",
-                   "In [0, 1], of a registered answer.",
-                   &registration.verdict.min_probability)};
-    if (has_clouds) {
-      Append(OptionsOf(&registration.front_end), &list);
-      Append(OptionsOf(&registration.refinement), &list);
-    }
-    Append(method.options(&estimator), &list);
-    if (method.takes_ins) Append(OptionsOf(&registration.ins), &list);
-    return list;
+// Sets the options that are given, and checks all.
+void Read(const Method& method,
+          bool has_clouds,
+          const py::dict& given,
+          const std::string& function,
+          RegistrationOptions* options) {
+  options->method = method.name;
+  Apply(given,
+        OptionsOf(method, has_clouds, options),
+        function + "(method=\"" + method.name + "\")");
+  CheckIns(given, options->ins.mode);
+  std::string error;
+  if (!CanUseIns(method, options->ins, &error) || !options->IsValid(&error)) {
+    throw py::value_error(error);
   }
-
-  void Set(const RegistrationOptions& preset) {
-    registration = preset;
-    estimator.quatro = preset.quatro;
-    estimator.quatro.num_threads = 0;
-  }
-
-  void Read(const Method& method,
-            bool has_clouds,
-            const py::dict& options,
-            const std::string& function) {
-    Apply(options,
-          Options(method, has_clouds),
-          function + "(method=\"" + method.name + "\")");
-    CheckIns(options, registration.ins.mode);
-    estimator.ShareCommon();
-    registration.quatro = estimator.quatro;
-    registration.seed = estimator.quatro.seed;
-    registration.num_threads = estimator.quatro.num_threads;
-    std::string error;
-    if (!method.is_valid(estimator, &error) || !registration.IsValid(&error)) {
-      throw py::value_error(error);
-    }
-  }
-};
+}
 
 RegistrationOptions FindPreset(const std::string& name,
                                const char* further_name) {
-  const auto preset = MakePreset(name);
-  if (preset) return *preset;
+  auto preset = MakePreset(name);
+  if (preset) {
+    preset->num_threads = 0;
+    return *preset;
+  }
   std::string error = "preset = \"" + name + "\", must be one of ";
   for (const std::string& known : PresetNames()) error += known + ", ";
   if (further_name == nullptr) error.resize(error.size() - 2);
@@ -111,24 +79,24 @@ Registration RegisterClouds(const py::object& source,
                             const py::object& target,
                             const std::string& preset,
                             const std::string& method_name,
-                            const py::kwargs& options) {
-  const Method& method = FindMethod(method_name);
+                            const py::kwargs& given) {
+  const Method& method = MethodOf(method_name);
   const PointsArgument source_points(source, "source");
   const PointsArgument target_points(target, "target");
   PointCloud source_cloud;
   PointCloud target_cloud;
-  RegistrationOptions chosen;
-  if (preset != "auto") chosen = FindPreset(preset, "auto");
+  RegistrationOptions options;
+  if (preset != "auto") options = FindPreset(preset, "auto");
   {
     const py::gil_scoped_release release;
     source_cloud = MakeCloud(source_points);
     target_cloud = MakeCloud(target_points);
-    if (preset == "auto") chosen = MakeAutoOptions(source_cloud, target_cloud);
+    if (preset == "auto") {
+      options = MakeAutoOptions(source_cloud, target_cloud);
+      options.num_threads = 0;
+    }
   }
-  Given given;
-  given.Set(chosen);
-  given.Read(method, true, options, "register");
-  given.registration.solver = method.make(given.estimator);
+  Read(method, true, given, "register", &options);
 
   Registration answer;
   answer.method = method.name;
@@ -136,13 +104,10 @@ Registration RegisterClouds(const py::object& source,
   answer.num_target_dropped = target_cloud.num_dropped;
   {
     const py::gil_scoped_release release;
-    answer.summary = Register(source_cloud, target_cloud, given.registration);
+    answer.summary = Register(source_cloud, target_cloud, options);
   }
   if (!answer.summary.error.empty()) {
     throw py::value_error(answer.summary.error);
-  }
-  if (answer.summary.solution.termination == PoseTermination::kInvalidInput) {
-    throw py::value_error(answer.summary.solution.message);
   }
   return answer;
 }
@@ -151,8 +116,8 @@ Solution SolveMatches(const py::object& source_points,
                       const py::object& target_points,
                       const std::string& method_name,
                       const std::string& preset,
-                      const py::kwargs& options) {
-  const Method& method = FindMethod(method_name);
+                      const py::kwargs& given) {
+  const Method& method = MethodOf(method_name);
   const PointsArgument source_argument(source_points, "source_points");
   const PointsArgument target_argument(target_points, "target_points");
   const auto source = source_argument.View();
@@ -163,38 +128,17 @@ Solution SolveMatches(const py::object& source_points,
         " rows and target_points " + std::to_string(target.cols()) +
         ", row i of one must be matched with row i of the other");
   }
-  Given given;
-  given.Set(FindPreset(preset, nullptr));
-  given.Read(method, false, options, "solve");
-  const PoseSolver solver = method.make(given.estimator);
-  const RegistrationOptions& all = given.registration;
-  const double noise_bound = all.quatro.noise_bound;
-  VerdictOptions verdict = all.verdict;
-  verdict.rival.seed = all.seed;
-  verdict.rival.num_threads = all.num_threads;
-  verdict.rival.up_in_target = all.ins.up;
+  RegistrationOptions options = FindPreset(preset, nullptr);
+  Read(method, false, given, "solve", &options);
 
   Solution answer;
   answer.method = method.name;
   {
     const py::gil_scoped_release release;
-    Stopwatch stopwatch;
-    answer.solution =
-        SolveWithIns(source, target, solver, noise_bound, all.ins);
-    if (answer.solution.termination != PoseTermination::kInvalidInput) {
-      AddCovariance(
-          source, target, noise_bound, all.covariance, &answer.solution);
-      answer.verdict = Judge(source,
-                             target,
-                             answer.solution,
-                             noise_bound,
-                             /*geometry=*/std::nullopt,
-                             verdict);
-    }
-    answer.total_seconds = stopwatch.Lap();
+    answer.summary = RegisterMatches({source, target}, options);
   }
-  if (answer.solution.termination == PoseTermination::kInvalidInput) {
-    throw py::value_error(answer.solution.message);
+  if (!answer.summary.error.empty()) {
+    throw py::value_error(answer.summary.error);
   }
   return answer;
 }
@@ -204,17 +148,21 @@ struct GivenAlignment {
   VgicpOptions vgicp;
 
   OptionList Options(const std::string& method) {
-    OptionList list = OptionsOf(&vgicp.alignment);
-    list.push_back(MakeOption("num_threads",
-                              "0: one per core. Never changes the answer.",
-                              &vgicp.alignment.num_threads));
+    OptionList list = LocalAlignmentOptionList(&vgicp.alignment);
+    list.push_back({"num_threads",
+                    ">= 0",
+                    "0: one per core; never changes the answer",
+                    &vgicp.alignment.num_threads});
     if (method == "icp") return list;
-    list.push_back(MakeOption(
-        "epsilon", "In (0, 1), variance across surfaces.", &vgicp.epsilon));
-    list.push_back(MakeOption(
-        "num_neighbors", "That normals are taken from.", &vgicp.num_neighbors));
+    list.push_back(
+        {"epsilon", "in (0, 1)", "variance across surfaces", &vgicp.epsilon});
+    list.push_back({"num_neighbors",
+                    ">= 3",
+                    "points that a normal is estimated from",
+                    &vgicp.num_neighbors});
     if (method == "gicp") return list;
-    list.push_back(MakeOption("voxel_size", "[m], > 0.", &vgicp.voxel_size));
+    list.push_back(
+        {"voxel_size", "[m], > 0", "edge of a voxel", &vgicp.voxel_size});
     return list;
   }
 
@@ -289,18 +237,20 @@ py::tuple PresetTuple() {
 py::dict MethodDict() {
   py::dict methods;
   for (const Method& method : Methods()) {
-    methods[py::str(method.name)] = method.text;
+    methods[py::str(method.name)] = method.description;
   }
   return methods;
 }
 
-// Of every method, or of one.
+// One paragraph per method.
 std::string DescribeMethods(bool has_clouds) {
   std::string text;
   for (const Method& method : Methods()) {
-    Given given;
-    text += "\nmethod=\"" + method.name + "\"  " + method.text + "\n" +
-            Describe(given.Options(method, has_clouds));
+    if (!has_clouds && method.input == MethodInput::kClouds) continue;
+    RegistrationOptions options;
+    text += std::string("\nmethod=\"") + method.name + "\"  " +
+            method.description + "\n" +
+            Describe(OptionsOf(method, has_clouds, &options));
   }
   return text;
 }

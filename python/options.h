@@ -1,67 +1,28 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Options by name, as Python gives them: each has a line that says what it is,
-// in which unit, and the field that it sets. Whether a value is in range is the
-// library's to say.
+// The options of the registry (robust/registration/option_list.h) as Python
+// gives them: by name, with a value of the field's type.
 
 #ifndef QUATRO_PYTHON_OPTIONS_H_
 #define QUATRO_PYTHON_OPTIONS_H_
 
 #include <pybind11/pybind11.h>
 
-#include <functional>
 #include <string>
-#include <vector>
 
-#include "robust/estimators/arc_consensus.h"
-#include "robust/estimators/fgr.h"
-#include "robust/estimators/quatro.h"
-#include "robust/estimators/ransac.h"
-#include "robust/estimators/teaser.h"
-#include "robust/registration/ins.h"
-#include "robust/registration/registration.h"
-#include "solvers/local/local_alignment.h"
-#include "solvers/local/vgicp.h"
+#include "robust/registration/option_list.h"
 
 namespace quatro {
 
-struct Option {
-  std::string name;
-  std::string text;  // Unit and meaning.
-  std::function<void(const pybind11::handle& value)> set;
-};
-
-using OptionList = std::vector<Option>;
-
-// What sets a field. Throws TypeError, with the option's name, for a value of
-// another type, and ValueError for an integer that the field cannot hold.
-Option MakeOption(std::string name, std::string text, double* field);
-Option MakeOption(std::string name, std::string text, bool* field);
-Option MakeOption(std::string name, std::string text, int* field);
-Option MakeOption(std::string name, std::string text, std::int64_t* field);
-Option MakeOption(std::string name, std::string text, std::uint64_t* field);
-Option MakeOption(std::string name, std::string text, Eigen::Vector3d* field);
-
-// The fields of each, which must outlive the list.
-// Those of GNC are not among those of the exact yaw.
-OptionList OptionsOf(QuatroOptions* options);
-OptionList OptionsOfExact(QuatroOptions* options);
-OptionList OptionsOf(ArcConsensusOptions* options);
-OptionList OptionsOf(TeaserOptions* options);
-OptionList OptionsOf(FgrOptions* options);
-OptionList OptionsOf(RansacOptions* options);
-OptionList OptionsOf(InsOptions* options);
-OptionList OptionsOf(FrontEndOptions* options);
-OptionList OptionsOf(RefinementOptions* options);
-OptionList OptionsOf(LocalAlignmentOptions* options);
-
-// Sets all that are given. Throws TypeError for a name that is not in the list;
-// `function` is what was called.
+// Sets all options that are given. Throws TypeError for a name that is not in
+// the list and, with the option's name, for a value of another type, and
+// ValueError for an integer that the field cannot hold; `function` is what was
+// called.
 void Apply(const pybind11::dict& given,
            const OptionList& options,
            const std::string& function);
 
-// One paragraph an option, for docstrings.
+// One line per option, for docstrings.
 std::string Describe(const OptionList& options);
 
 }  // namespace quatro

@@ -17,12 +17,14 @@ namespace py = pybind11;
 
 constexpr double kDegree = M_PI / 180.0;  // [rad]
 
-const PoseSummary& SolutionOf(const Solution& s) { return s.solution; }
-const PoseSummary& SolutionOf(const Registration& r) {
-  return r.summary.solution;
+template <typename Summary>
+const PoseSummary& SolutionOf(const Summary& s) {
+  return s.summary.solution;
 }
-const Verdict& VerdictOf(const Solution& s) { return s.verdict; }
-const Verdict& VerdictOf(const Registration& r) { return r.summary.verdict; }
+template <typename Summary>
+const Verdict& VerdictOf(const Summary& s) {
+  return s.summary.verdict;
+}
 
 py::object OrNone(const std::optional<double>& value) {
   if (!value) return py::none();
@@ -213,7 +215,8 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
         const auto& s = self.cast<const Summary&>();
         return ViewColumns(SolutionOf(s).translation_inliers, self);
       },
-      "(K,) int64: rows of the matches within the noise bound. A view.");
+      "(K,) int64: rows of the matches within the noise bound of the "
+      "estimator's pose. A view.");
   type->def_property_readonly(
       "consistent",
       [](const py::object& self) {
@@ -224,9 +227,21 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
   add("num_matches",
       "int: matches, copies counted once.",
       [](const Summary& s) { return SolutionOf(s).num_matches; });
-  add("num_inliers",
-      "int: of these, within the noise bound.",
+  add("num_consistent",
+      "int: matches that pruning kept.",
+      [](const Summary& s) { return SolutionOf(s).num_consistent; });
+  add("num_tims", "int: differences of matches.", [](const Summary& s) {
+    return SolutionOf(s).num_tims;
+  });
+  add("num_rotation_inliers",
+      "int: differences within their bound.",
+      [](const Summary& s) { return SolutionOf(s).num_rotation_inliers; });
+  add("num_translation_inliers",
+      "int: matches within the noise bound of the estimator's pose.",
       [](const Summary& s) { return SolutionOf(s).num_translation_inliers; });
+  add("num_inliers",
+      "int: matches within the noise bound of the final pose.",
+      [](const Summary& s) { return VerdictOf(s).num_inliers; });
   add("certificate",
       "dict or None: gnc_cost, optimal_cost and gap of the yaw's problem.",
       [](const Summary& s) { return CertificateOf(SolutionOf(s)); });
@@ -234,6 +249,12 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
       "dict or None: num_subproblems solved by Ceres, too, "
       "max_rotation_difference [rad], max_translation_difference [m].",
       [](const Summary& s) { return CrosscheckOf(SolutionOf(s)); });
+  add("stage_seconds", "dict: time by stage [s].", [](const Summary& s) {
+    return Seconds(s.summary.stage_times);
+  });
+  add("total_seconds", "float: time [s].", [](const Summary& s) {
+    return s.summary.total_seconds;
+  });
   add("notes", "dict: what a stage did, by stage.", [](const Summary& s) {
     py::dict dict;
     for (const StageNote& note : SolutionOf(s).notes) {
@@ -249,26 +270,11 @@ void BindSummaries(py::module_* module) {
   py::class_<Solution> solution(
       *module, "Solution", "The pose of matched points, and its verdict.");
   BindCommon("Solution", &solution);
-  solution
-      .def_property_readonly(
-          "stage_seconds",
-          [](const Solution& s) { return Seconds(s.solution.stage_times); },
-          "dict: time by stage [s].")
-      .def_readonly(
-          "total_seconds", &Solution::total_seconds, "float: time [s].");
 
   py::class_<Registration> registration(
       *module, "Registration", "The pose of two clouds, and its verdict.");
   BindCommon("Registration", &registration);
   registration
-      .def_property_readonly(
-          "stage_seconds",
-          [](const Registration& r) { return Seconds(r.summary.stage_times); },
-          "dict: time by stage [s].")
-      .def_property_readonly(
-          "total_seconds",
-          [](const Registration& r) { return r.summary.total_seconds; },
-          "float: time [s].")
       .def_property_readonly(
           "matched_source",
           [](const py::object& self) {

@@ -16,15 +16,13 @@
 
 namespace quatro {
 
-// Of matched points.
+// The answer of solve(), from matched points.
 struct Solution {
   std::string method;
-  PoseSummary solution;
-  Verdict verdict;
-  double total_seconds = 0.0;
+  RegistrationSummary summary;
 };
 
-// Of clouds.
+// The answer of register(), from clouds.
 struct Registration {
   std::string method;
   RegistrationSummary summary;
@@ -32,7 +30,7 @@ struct Registration {
   Eigen::Index num_target_dropped = 0;
 };
 
-// Of local alignment.
+// The answer of align().
 struct Alignment {
   std::string method;
   AlignmentSummary summary;

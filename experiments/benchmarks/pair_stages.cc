@@ -246,7 +246,7 @@ void AddEstimation(const Adder& add) {
     benchmark::DoNotOptimize(
         EstimateTranslation(pose.rotation * pair.clique_source,
                             pair.clique_target,
-                            pair.options.quatro.noise_bound));
+                            pair.options.noise_bound));
   });
   add("solve/quatro", Needs::kClouds, [](const PairInput& pair, Counters*) {
     QuatroOptions options = pair.options.quatro;
@@ -258,7 +258,7 @@ void AddEstimation(const Adder& add) {
       Needs::kClouds,
       [](const PairInput& pair, Counters*) {
         ArcConsensusOptions options;
-        options.noise_bound = pair.options.quatro.noise_bound;
+        options.noise_bound = pair.options.noise_bound;
         options.num_threads = pair.options.num_threads;
         benchmark::DoNotOptimize(SolveArcConsensus(
             pair.matched.matched_source, pair.matched.matched_target, options));
@@ -273,7 +273,7 @@ void AddOtherEstimators(const Adder& add) {
     add(name, Needs::kClouds, [solve](const PairInput& pair, Counters* c) {
       const PoseSummary summary = solve(pair.matched.matched_source,
                                         pair.matched.matched_target,
-                                        pair.options.quatro.noise_bound);
+                                        pair.options.noise_bound);
       (*c)["inliers"] = AsCount(summary.num_translation_inliers);
     });
   };
@@ -395,7 +395,7 @@ void AddVerdict(const Adder& add) {
     const Verdict verdict = Judge(pair.matched.matched_source,
                                   pair.matched.matched_target,
                                   pair.summary.solution,
-                                  pair.options.quatro.noise_bound,
+                                  pair.options.noise_bound,
                                   pair.summary.verdict.geometry,
                                   options);
     (*c)["registered"] = verdict.IsRegistered();

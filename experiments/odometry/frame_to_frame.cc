@@ -9,23 +9,16 @@
 
 namespace quatro {
 
-FrameAligner MakeRegistrationAligner(const RegistrationOptions& options) {
-  return MakeCloudAligner(
-      [](const PointCloud& source,
-         const PointCloud& target,
-         const Rigid3&,
-         const RegistrationOptions& given) {
-        return Register(source, target, given);
-      },
-      options);
-}
-
-FrameAligner MakeCloudAligner(const CloudSolver& solver,
+FrameAligner MakeFrameAligner(PairSolver solver,
                               const RegistrationOptions& options) {
-  return [solver, options](const PointCloud& source,
-                           const PointCloud& target,
-                           const Rigid3& guess) -> FrameAlignment {
-    const RegistrationSummary summary = solver(source, target, guess, options);
+  return [solver = std::move(solver), options](
+             const PointCloud& source,
+             const PointCloud& target,
+             const Rigid3& guess) -> FrameAlignment {
+    RegistrationOptions from_guess = options;
+    from_guess.bounds.guess = guess;
+    const RegistrationSummary summary =
+        solver(source, target, /*matched=*/nullptr, from_guess);
     if (!summary.error.empty()) return {std::nullopt, summary.error};
     return {summary.target_from_source(),
             std::string(StatusName(summary.verdict.status)) + ": " +

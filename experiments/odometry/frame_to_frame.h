@@ -31,12 +31,10 @@ using FrameAligner =
                                  const PointCloud& target,
                                  const Rigid3& target_from_source_guess)>;
 
-// By Register(). Its pose counts whether or not it is vouched for, as in the
-// paper's table; the message holds the verdict.
-FrameAligner MakeRegistrationAligner(const RegistrationOptions& options);
-
-// The same by a method from clouds.
-FrameAligner MakeCloudAligner(const CloudSolver& solver,
+// By a method on clouds. The pose counts whether or not it is registered, as in
+// the paper's table; the message holds the verdict. Local methods start from
+// the guess.
+FrameAligner MakeFrameAligner(PairSolver solver,
                               const RegistrationOptions& options);
 
 class FrameToFrame : public Odometry {

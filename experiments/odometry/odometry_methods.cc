@@ -38,11 +38,12 @@ constexpr Method kMethods[] = {
 
 std::vector<std::string> OdometryNames() {
   std::vector<std::string> names = OdometryMethodNames();
-  std::string error;
-  for (const std::string& name : MethodNames()) {
-    if (MakeSolver(name, {}, &error)) names.push_back(name);  // Needs no INS.
+  for (const MethodInput input :
+       {MethodInput::kMatches, MethodInput::kClouds}) {
+    for (const std::string& name : ExperimentMethodNames(input)) {
+      if (!NeedsIns(name)) names.push_back(name);
+    }
   }
-  for (const std::string& name : CloudMethodNames()) names.push_back(name);
   return names;
 }
 
@@ -59,19 +60,15 @@ std::unique_ptr<Odometry> MakeOdometry(const std::string& name,
   for (const Method& method : kMethods) {
     if (name == method.name) return method.make(registration.num_threads);
   }
-  RegistrationOptions options = registration;
-  options.quatro.num_threads = registration.num_threads;
-  options.quatro.seed = registration.seed;
-  if (const CloudSolver clouds = FindCloudSolver(name)) {
-    return std::make_unique<FrameToFrame>(MakeCloudAligner(clouds, options));
-  }
-  options.solver = MakeSolver(name, options.quatro, error);
-  if (!options.solver) {
+  PairSolver solver;
+  if (!NeedsIns(name)) solver = FindPairSolver(name, {}, error);
+  if (!solver) {
     *error = "--method=" + name + ", must be one of";
     for (const std::string& known : OdometryNames()) *error += " " + known;
     return nullptr;
   }
-  return std::make_unique<FrameToFrame>(MakeRegistrationAligner(options));
+  return std::make_unique<FrameToFrame>(
+      MakeFrameAligner(std::move(solver), registration));
 }
 
 }  // namespace quatro

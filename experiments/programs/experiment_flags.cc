@@ -100,7 +100,7 @@ std::optional<PairSelection> ProblemsOfFlags(std::string* error) {
   FamilyOptions families;
   families.families = SplitNames(FLAGS_families);
   families.num_problems = FLAGS_seeds;
-  families.noise_bound = registration->quatro.noise_bound;
+  families.noise_bound = registration->noise_bound;
   families.seed = FLAGS_seed;
   auto selection = SelectProblems(families, error);
   if (!selection) *error = "--families: " + *error;

@@ -143,7 +143,7 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   override_with(FLAGS_voxel_size, &options->front_end.voxel_size);
   override_with(FLAGS_normal_radius, &options->front_end.normal_radius);
   override_with(FLAGS_fpfh_radius, &options->front_end.fpfh_radius);
-  override_with(FLAGS_noise_bound, &options->quatro.noise_bound);
+  override_with(FLAGS_noise_bound, &options->noise_bound);
   options->seed = FLAGS_seed;
   options->num_threads = FLAGS_threads;
   options->quatro.seed = FLAGS_seed;
@@ -289,7 +289,7 @@ int Main(int argc, char** argv) {
                                                source->points,
                                                target->points,
                                                std::nullopt,
-                                               options->quatro.noise_bound},
+                                               options->noise_bound},
                                               options->front_end.voxel_size,
                                               {FLAGS_method, summary},
                                               ManifestOf(report),

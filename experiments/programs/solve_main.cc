@@ -92,7 +92,7 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     return std::nullopt;
   }
   if (FLAGS_noise_bound != 0.0) {
-    options->quatro.noise_bound = FLAGS_noise_bound;
+    options->noise_bound = FLAGS_noise_bound;
   }
   options->quatro.seed = FLAGS_seed;
   options->quatro.num_threads = FLAGS_threads;
@@ -144,7 +144,7 @@ int Main(int argc, char** argv) {
   quatro::PoseSummary summary = solver(matches->source, matches->target);
   quatro::AddCovariance(matches->source,
                         matches->target,
-                        options->quatro.noise_bound,
+                        options->noise_bound,
                         options->covariance,
                         &summary);
   const double total_seconds = stopwatch.Lap();
@@ -155,7 +155,7 @@ int Main(int argc, char** argv) {
   const quatro::Verdict verdict = quatro::Judge(matches->source,
                                                 matches->target,
                                                 summary,
-                                                options->quatro.noise_bound,
+                                                options->noise_bound,
                                                 /*geometry=*/std::nullopt,
                                                 verdict_options);
 

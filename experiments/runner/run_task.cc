@@ -39,7 +39,7 @@ std::string ViewOf(const PairTask& task,
                          matched.source.tree->points(),
                          matched.target.tree->points(),
                          task.true_target_from_source,
-                         options.quatro.noise_bound},
+                         options.noise_bound},
                         answers,
                         view);
 }
@@ -135,7 +135,7 @@ TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
       used.ins.attitude_std = task.ins->std;
     }
     RegistrationSummary summary = FindPairSolver(name, methods.own, &error)(
-        *source, *target, matched, used);
+        *source, *target, &matched, used);
     if (!summary.error.empty()) {
       outcome.note = name + ": " + summary.error;
       result.status = "unreadable";

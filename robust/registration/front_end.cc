@@ -21,36 +21,34 @@
 namespace quatro {
 namespace {
 
-AssumedSensor AssumeSensor(const Points& points, const Eigen::Vector3d& up) {
+// A scan holds its sensor at the origin. A cloud that does not reach around its
+// origin is in the coordinates of a map; its sensor is assumed above its
+// middle, from where it need not have been seen.
+void AssumeSensor(const Eigen::Vector3d& up, DescribedCloud* cloud) {
+  const Points& points = cloud->points();
   const Eigen::Vector3d low = points.rowwise().minCoeff();
   const Eigen::Vector3d high = points.rowwise().maxCoeff();
   const Eigen::Vector3d margin = 0.5 * (high - low);
-  AssumedSensor sensor;
-  sensor.is_scan =
+  cloud->is_scan =
       (low - margin).maxCoeff() <= 0.0 && (high + margin).minCoeff() >= 0.0;
-  if (sensor.is_scan) return sensor;
+  if (cloud->is_scan) return;
   const Eigen::Vector3d middle = 0.5 * (low + high);
-  sensor.place =
+  cloud->sensor =
       middle + up * (up.transpose() * (points.colwise() - middle)).maxCoeff();
-  return sensor;
 }
 
-// Sets what is kept of the cloud, and returns its FPFH, unless it is to be
-// described otherwise.
+// Sets the cloud and returns its FPFH, unless options.describe replaces it.
 Fpfh Describe(const Points& points,
               const Eigen::Vector3d& up,
               const FrontEndOptions& options,
               int num_threads,
               DescribedCloud* cloud) {
   cloud->tree = std::make_shared<const KdTree>(points);
-  cloud->sensor = AssumeSensor(points, up);
+  AssumeSensor(up, cloud);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(*cloud->tree, options.fpfh_radius, num_threads);
-  cloud->normals = EstimateNormals(points,
-                                   neighborhoods,
-                                   options.normal_radius,
-                                   cloud->sensor.place,
-                                   num_threads);
+  cloud->normals = EstimateNormals(
+      points, neighborhoods, options.normal_radius, cloud->sensor, num_threads);
   if (options.describe) return Fpfh();
   return ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
 }

@@ -12,7 +12,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,21 +42,6 @@ struct FrontEndOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Where the sensor stood: at the origin of a scan. A cloud that does not reach
-// around its origin is in the coordinates of a map; there, above its middle,
-// from where it need not have been seen.
-struct AssumedSensor {
-  bool is_scan = true;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // [m]
-};
-
-// The voxel means of a cloud and what is known of the surface at each.
-struct DescribedCloud {
-  AssumedSensor sensor;
-  std::shared_ptr<const KdTree> tree;  // Of the voxel means [m].
-  Points normals;
-};
-
 // Two clouds described, and their matches.
 struct MatchedClouds {
   // Why nothing was tried: an option out of range, a cloud without points or
@@ -67,7 +51,7 @@ struct MatchedClouds {
   DescribedCloud source;
   DescribedCloud target;
 
-  // What was matched: voxel means in their own frames, column by column.
+  // The matches: voxel means in their own frames, column by column.
   Points matched_source;                // [m]
   Points matched_target;                // [m]
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
@@ -75,7 +59,8 @@ struct MatchedClouds {
   std::vector<StageTime> stage_times;
 };
 
-// `source_up` and `target_up`: what is up in each cloud. Options must be valid.
+// `source_up` and `target_up` are unit vectors: which way is up in each cloud.
+// Options must be valid.
 MatchedClouds MatchClouds(
     const PointCloud& source,
     const PointCloud& target,

@@ -14,7 +14,6 @@
 #include "robust/estimators/consensus.h"
 #include "robust/estimators/distinct_matches.h"
 #include "solvers/ceres/ins_refinement.h"
-#include "solvers/closed_form/valid_matches.h"
 
 namespace quatro {
 namespace {
@@ -29,16 +28,6 @@ constexpr double kSigmasInBound = 3.0;
 using Schedule = std::array<double, 6>;
 constexpr Schedule kSchedules[] = {{2.0, 1.5, 1.0, 1.0, 1.0, 1.0},
                                    {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}};
-
-// Column by column: equal columns must stay equal to the last bit, which a
-// product of matrices does not promise.
-Points Turned(const Eigen::Matrix3d& rotation, const PointsRef& points) {
-  Points turned(3, points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    turned.col(i) = rotation * Eigen::Vector3d(points.col(i));
-  }
-  return turned;
-}
 
 // (1) of ins_refinement.h over all matches, those that are off truncated.
 double FusedCost(const DistinctMatches& matches,
@@ -88,14 +77,14 @@ void Fuse(const PointsRef& source,
   VerticalPrior prior;
   prior.angle_std = std::sqrt(2.0) * ins.attitude_std;  // Of both attitudes.
   const Rigid3 start = *summary->target_from_source;
-  bool is_held = false;
+  bool is_refined = false;
   std::optional<Rigid3> fused;
   double least = FusedCost(matches, start, noise_bound, match_std, prior);
   for (const Schedule& schedule : kSchedules) {
     const auto refined =
         Refine(matches, start, noise_bound, match_std, prior, schedule);
     if (!refined) continue;
-    is_held = true;
+    is_refined = true;
     const double cost =
         FusedCost(matches, *refined, noise_bound, match_std, prior);
     if (!(cost < least)) continue;
@@ -103,8 +92,8 @@ void Fuse(const PointsRef& source,
     fused = refined;
   }
   if (!fused) {
-    summary->message += is_held ? "; fusing with the INS gave nothing better"
-                                : "; too few inliers to fuse with the INS";
+    summary->message += is_refined ? "; fusing with the INS gave nothing better"
+                                   : "; too few inliers to fuse with the INS";
     return;
   }
   summary->message += "; fused with the INS";
@@ -118,56 +107,6 @@ void Fuse(const PointsRef& source,
       FindInliers(matches.source, matches.target, *fused, noise_bound);
   summary->num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
   summary->translation_inliers = InputColumns(matches, inliers);
-}
-
-// `solve` gives a Summary, which is a PoseSummary, of matches in level frames.
-template <typename Summary, typename Solve>
-Summary SolveInLevelFrames(const PointsRef& source,
-                           const PointsRef& target,
-                           const Solve& solve,
-                           double noise_bound,
-                           const InsOptions& ins) {
-  std::string error;
-  if (!ins.IsValid(&error) || !AreValidMatches(source, target, &error)) {
-    Summary summary;
-    summary.message = error;
-    return summary;
-  }
-  if (ins.IsPlain()) return solve(source, target);
-  const LevelFrames frames = MakeLevelFrames(ins);
-  const Points level_source = Turned(frames.level_from_source, source);
-  const Points level_target = Turned(frames.level_from_target, target);
-  Summary summary = solve(level_source, level_target);
-  if (!summary.IsUsable()) return summary;
-  if (summary.model == PoseModel::kYawTranslation) {
-    summary.vertical.emplace();
-    summary.vertical->angle_std = ins.mode == InsMode::kNone
-                                      ? PoseCovarianceOptions().tilt_std
-                                      : std::sqrt(2.0) * ins.attitude_std;
-  }
-
-  if (ins.mode == InsMode::kFused) {
-    Stopwatch stopwatch;
-    Fuse(level_source, level_target, noise_bound, ins, &summary);
-    summary.stage_times.push_back({"fusion", stopwatch.Lap()});
-  }
-  const Eigen::Matrix3d target_from_level =
-      frames.level_from_target.transpose();
-  if (summary.vertical) {
-    VerticalPrior& vertical = *summary.vertical;
-    vertical.up_in_source =
-        frames.level_from_source.transpose() * vertical.up_in_source;
-    vertical.up_in_target = target_from_level * vertical.up_in_target;
-  }
-  for (std::optional<Rigid3>* pose :
-       {&summary.target_from_source, &summary.unpolished_target_from_source}) {
-    if (!*pose) continue;
-    const Rigid3& level = **pose;
-    *pose =
-        Rigid3{target_from_level * level.rotation * frames.level_from_source,
-               target_from_level * level.translation};  // Equation (1).
-  }
-  return summary;
 }
 
 bool IsFinite(const Attitude& attitude) {
@@ -216,24 +155,23 @@ LevelFrames MakeLevelFrames(const InsOptions& ins) {
   return {body_from_cloud, body_from_cloud};
 }
 
-QuatroSummary SolveQuatroWithIns(const PointsRef& source,
-                                 const PointsRef& target,
-                                 const QuatroOptions& options,
-                                 const InsOptions& ins) {
-  const auto solve = [&](const PointsRef& p, const PointsRef& q) {
-    return SolveQuatro(p, q, options);
-  };
-  return SolveInLevelFrames<QuatroSummary>(
-      source, target, solve, options.noise_bound, ins);
-}
-
-PoseSummary SolveWithIns(const PointsRef& source,
-                         const PointsRef& target,
-                         const PoseSolver& solver,
-                         double noise_bound,
-                         const InsOptions& ins) {
-  return SolveInLevelFrames<PoseSummary>(
-      source, target, solver, noise_bound, ins);
+PoseSummary SolveLevel(const PointsRef& source,
+                       const PointsRef& target,
+                       const PoseSolver& solver,
+                       double noise_bound,
+                       const InsOptions& ins) {
+  PoseSummary summary = solver(source, target);
+  if (!summary.IsUsable() || ins.mode == InsMode::kNone) return summary;
+  if (summary.model == PoseModel::kYawTranslation) {
+    summary.vertical.emplace();
+    summary.vertical->angle_std = std::sqrt(2.0) * ins.attitude_std;
+  }
+  if (ins.mode == InsMode::kFused) {
+    Stopwatch stopwatch;
+    Fuse(source, target, noise_bound, ins, &summary);
+    summary.stage_times.push_back({"fusion", stopwatch.Lap()});
+  }
+  return summary;
 }
 
 }  // namespace quatro

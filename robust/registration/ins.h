@@ -5,8 +5,9 @@
 //
 //   target_from_source = level_from_target^-1 R_z(yaw) level_from_source.  (1)
 //
-// The matches are turned into the level frames, once; Quatro finds yaw and
-// translation there, and (1) takes its answer back. Three ways:
+// Matches and clouds are rotated into the level frames, once
+// (robust/registration/level.h); the estimator finds yaw and translation there,
+// and (1) takes its answer back. There are three modes:
 //
 //   relative  level_from_source = R_y R_x of the INS' rotation from source to
 //             target = R_z R_y R_x, level_from_target = I. The paper's; it
@@ -28,7 +29,6 @@
 
 #include "features/base/types.h"
 #include "robust/estimators/pose_summary.h"
-#include "robust/estimators/quatro.h"
 #include "solvers/closed_form/gravity.h"
 
 namespace quatro {
@@ -72,29 +72,27 @@ struct InsOptions {
 struct LevelFrames {
   Eigen::Matrix3d level_from_source;
   Eigen::Matrix3d level_from_target;
+
+  // Whether the clouds are level as they are.
+  bool AreIdentity() const {
+    return level_from_source.isIdentity(0.0) &&
+           level_from_target.isIdentity(0.0);
+  }
 };
 
 // Those of the mode.
 LevelFrames MakeLevelFrames(const InsOptions& ins);
 
-// Column i of `source` is matched with column i of `target` [m].
-//
-// Of the summary, poses and columns are the given points'; `yaw` and the
-// estimate of `gnc` are of the level frames, along whose axes, too, inliers are
-// within the noise bound. The pose before the fusion is the unpolished one.
-QuatroSummary SolveQuatroWithIns(const PointsRef& source,
-                                 const PointsRef& target,
-                                 const QuatroOptions& options,
-                                 const InsOptions& ins);
-
-// The same by any solver, which is given the matches in the level frames. An
-// estimator of the full rotation gains by InsMode::kFused alone. `noise_bound`
-// is the solver's [m].
-PoseSummary SolveWithIns(const PointsRef& source,
-                         const PointsRef& target,
-                         const PoseSolver& solver,
-                         double noise_bound,
-                         const InsOptions& ins);
+// Any solver on matches in level frames, with z up. Sets the standard deviation
+// of the assumed vertical, and for InsMode::kFused refines the pose with the
+// INS as a prior; the pose before that is then the unpolished one. An estimator
+// of the full rotation gains by kFused alone. `noise_bound` is the solver's
+// [m].
+PoseSummary SolveLevel(const PointsRef& source,
+                       const PointsRef& target,
+                       const PoseSolver& solver,
+                       double noise_bound,
+                       const InsOptions& ins);
 
 }  // namespace quatro
 

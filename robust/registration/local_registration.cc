@@ -3,12 +3,13 @@
 
 #include "robust/registration/local_registration.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "features/base/stopwatch.h"
-#include "features/kd_tree.h"
+#include "features/described_cloud.h"
 #include "features/voxel_grid.h"
 #include "robust/registration/refinement.h"
 #include "solvers/local/gicp.h"
@@ -67,21 +68,19 @@ AlignmentSummary AlignVoxels(Points source,
                              const RefinementOptions& options,
                              const FinishStage& finish_stage) {
   const int num_threads = options.alignment.num_threads;
-  const KdTree source_tree(std::move(source));
-  const KdTree target_tree(std::move(target));
-  Points source_normals;
-  Points target_normals;
-  if (options.method != RefinementMethod::kIcp) {
-    source_normals =
-        EstimateNearestNormals(source_tree, kNumNeighbors, num_threads);
-    target_normals =
-        EstimateNearestNormals(target_tree, kNumNeighbors, num_threads);
-  }
+  const auto describe = [&](Points points) {
+    DescribedCloud cloud;
+    cloud.tree = std::make_shared<const KdTree>(std::move(points));
+    if (options.method != RefinementMethod::kIcp) {
+      cloud.normals =
+          EstimateNearestNormals(*cloud.tree, kNumNeighbors, num_threads);
+    }
+    return cloud;
+  };
+  const DescribedCloud source_cloud = describe(std::move(source));
+  const DescribedCloud target_cloud = describe(std::move(target));
   finish_stage("normals");
-  return Align({source_tree, source_normals},
-               {target_tree, target_normals},
-               initial_target_from_source,
-               options);
+  return Align(source_cloud, target_cloud, initial_target_from_source, options);
 }
 
 // By `align`, or ours if it is empty.

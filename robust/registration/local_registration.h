@@ -17,8 +17,9 @@
 #include "features/base/rigid3.h"
 #include "features/base/types.h"
 #include "features/io/point_cloud.h"
+#include "robust/registration/options.h"
 #include "robust/registration/refinement.h"
-#include "robust/registration/registration.h"
+#include "robust/registration/summary.h"
 
 namespace quatro {
 

@@ -26,7 +26,7 @@ RegistrationOptions InProportionTo(double voxel_size) {
   options.front_end.voxel_size = voxel_size;
   options.front_end.normal_radius = 3.0 * voxel_size;
   options.front_end.fpfh_radius = 5.0 * voxel_size;
-  options.quatro.noise_bound = voxel_size;
+  options.noise_bound = voxel_size;
   return options;
 }
 
@@ -44,7 +44,7 @@ RegistrationOptions WithoutExtensions() {
 RegistrationOptions MakePaper() {
   RegistrationOptions options = WithoutExtensions();
   options.front_end.fpfh_radius = 0.65;
-  options.quatro.noise_bound = 0.15;
+  options.noise_bound = 0.15;
   options.quatro.tim_bound_factor = 1.0;
   options.quatro.gnc.start = GncStart::kIdentity;
   return options;
@@ -53,7 +53,7 @@ RegistrationOptions MakePaper() {
 RegistrationOptions MakeReference() {
   RegistrationOptions options = WithoutExtensions();
   options.front_end.fpfh_radius = 0.75;
-  options.quatro.noise_bound = 0.3;
+  options.noise_bound = 0.3;
   options.quatro.tim_bound_factor = 2.0;
   options.quatro.gnc.start = GncStart::kPlainFit;
   return options;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "features/io/point_cloud.h"
-#include "robust/registration/registration.h"
+#include "robust/registration/options.h"
 
 namespace quatro {
 

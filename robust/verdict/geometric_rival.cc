@@ -158,7 +158,8 @@ Move Refine(Comparison& comparison, Move best, double step, double min_shift) {
 bool GeometricRivalOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (!(min_shift > 0.0 && std::isfinite(min_shift))) {
-    problem << "evidence.rival.min_shift = " << min_shift << ", must be > 0 and finite";
+    problem << "evidence.rival.min_shift = " << min_shift
+            << ", must be > 0 and finite";
   } else if (!(max_shift >= min_shift && max_shift <= 100.0)) {
     problem << "evidence.rival.max_shift = " << max_shift
             << ", must be in [min_shift, 100] = [" << min_shift << ", 100]";
@@ -166,7 +167,8 @@ bool GeometricRivalOptions::IsValid(std::string* error) const {
     problem << "evidence.rival.max_turned_shift = " << max_turned_shift
             << ", must be in [0, 100]";
   } else if (num_search_points < 1) {
-    problem << "evidence.rival.num_search_points = " << num_search_points << ", must be >= 1";
+    problem << "evidence.rival.num_search_points = " << num_search_points
+            << ", must be >= 1";
   } else if (num_compared_points < 1) {
     problem << "evidence.rival.num_compared_points = " << num_compared_points
             << ", must be >= 1";

@@ -11,7 +11,6 @@
 #include "robust/estimators/arc_consensus.h"
 #include "robust/estimators/consensus.h"
 #include "robust/estimators/distinct_matches.h"
-#include "solvers/closed_form/gravity.h"
 #include "solvers/closed_form/translation.h"
 
 namespace quatro {
@@ -84,9 +83,6 @@ bool MatchRivalOptions::IsValid(std::string* error) const {
     problem << "num_pairs = " << num_pairs << ", must be >= 1";
   } else if (max_num_matches < 2) {
     problem << "max_num_matches = " << max_num_matches << ", must be >= 2";
-  } else if (!(std::abs(up_in_target.norm() - 1.0) <= 1e-6)) {
-    problem << "up_in_target = (" << up_in_target.transpose()
-            << "), must be a unit vector";
   } else if (num_threads < 0) {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   }
@@ -99,23 +95,6 @@ std::optional<MatchRival> FindMatchRival(const PointsRef& source,
                                          const Rigid3& target_from_source,
                                          double noise_bound,
                                          const MatchRivalOptions& options) {
-  if (options.up_in_target != Eigen::Vector3d::UnitZ()) {
-    const Rigid3 level{
-        RotationBetween(options.up_in_target, Eigen::Vector3d::UnitZ()),
-        Eigen::Vector3d::Zero()};
-    MatchRivalOptions level_options = options;
-    level_options.up_in_target = Eigen::Vector3d::UnitZ();
-    auto rival = FindMatchRival(source,
-                                level.Apply(target),
-                                level * target_from_source,
-                                noise_bound,
-                                level_options);
-    if (rival) {
-      rival->target_from_source = Inverse(level) * rival->target_from_source;
-    }
-    return rival;
-  }
-
   const Points moved = target_from_source.Apply(source);
   const std::vector<Eigen::Index> inliers =
       FindInliers(source, target, target_from_source, noise_bound);

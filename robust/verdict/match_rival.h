@@ -45,9 +45,6 @@ struct MatchRivalOptions {
   Eigen::Index num_pairs = 200'000;
   Eigen::Index max_num_matches = 20'000;
 
-  // What D turns about, a unit vector.
-  Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
-
   std::uint64_t seed = 0;
   int num_threads = 1;  // 0: all cores. Never changes the answer.
 

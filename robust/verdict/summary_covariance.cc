@@ -11,7 +11,7 @@
 namespace quatro {
 namespace {
 
-// A right match is off by the noise bound at so many standard deviations.
+// The noise bound, in standard deviations of an inlier.
 constexpr double kSigmasInBound = 3.0;
 
 }  // namespace
@@ -19,19 +19,20 @@ constexpr double kSigmasInBound = 3.0;
 void AddCovariance(const PointsRef& source,
                    const PointsRef& target,
                    double noise_bound,
-                   PoseCovarianceOptions options,
+                   const CovarianceOptions& options,
                    PoseSummary* summary) {
   CHECK_EQ(source.cols(), target.cols());
   if (!summary->IsUsable()) return;
   Stopwatch stopwatch;
-  options.model = summary->model;
-  options.sigma = noise_bound / kSigmasInBound;
-  options.prior.reset();
+  PoseCovarianceOptions of_pose;
+  static_cast<CovarianceOptions&>(of_pose) = options;
+  of_pose.model = summary->model;
+  of_pose.sigma = noise_bound / kSigmasInBound;
   if (summary->vertical && summary->model == PoseModel::kRigid) {
-    options.prior = summary->vertical;
+    of_pose.prior = summary->vertical;
   } else if (summary->vertical) {
-    options.up_in_target = summary->vertical->up_in_target;
-    options.tilt_std = summary->vertical->angle_std;
+    of_pose.up_in_target = summary->vertical->up_in_target;
+    of_pose.tilt_std = summary->vertical->angle_std;
   }
   const DistinctMatches inliers =
       FindDistinctMatches(Columns(source, summary->translation_inliers),
@@ -39,7 +40,7 @@ void AddCovariance(const PointsRef& source,
   summary->covariance = ComputePoseCovariance(summary->scale * inliers.source,
                                               inliers.target,
                                               *summary->target_from_source,
-                                              options);
+                                              of_pose);
   summary->stage_times.push_back({"covariance", stopwatch.Lap()});
 }
 

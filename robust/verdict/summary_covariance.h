@@ -16,13 +16,13 @@
 
 namespace quatro {
 
-// Sets summary->covariance, and a stage time; nothing if there is no pose. The
-// matches are those that were solved, `noise_bound` [m]. Of the options, model,
-// sigma and what is known of the vertical are replaced by the summary's.
+// Sets summary->covariance and adds a stage time; does nothing without a pose.
+// `source` and `target` are the matches that were solved, with z up;
+// `noise_bound` [m].
 void AddCovariance(const PointsRef& source,
                    const PointsRef& target,
                    double noise_bound,
-                   PoseCovarianceOptions options,
+                   const CovarianceOptions& options,
                    PoseSummary* summary);
 
 }  // namespace quatro

@@ -79,14 +79,14 @@ double Part(const DirectionInformation& direction,
 
 void NameUnobservable(const SurfaceObservabilityOptions& options,
                       SurfaceObservability* result) {
-  for (const DirectionInformation& direction :
-       SplitInformation(result->information, result->center, options.min_part)) {
+  for (const DirectionInformation& direction : SplitInformation(
+           result->information, result->center, options.min_part)) {
     if (Part(direction, *result) >= options.min_part) continue;
     result->unobservable.push_back({direction.freedom,
-                                  UnobservableReason::kNoSurface,
-                                  direction.axis,
-                                  direction.point,
-                                  {}});
+                                    UnobservableReason::kNoSurface,
+                                    direction.axis,
+                                    direction.point,
+                                    {}});
   }
 }
 
@@ -121,7 +121,7 @@ std::optional<SurfaceObservability> MeasureSurfaceObservability(
       });
   SurfaceObservability result;
   result.num_overlapping = static_cast<Eigen::Index>(of_source.points.size() +
-                                                   of_target.points.size());
+                                                     of_target.points.size());
   if (result.num_overlapping < kMinOverlapping) return std::nullopt;
   for (Eigen::Vector3d& point : of_target.points) {
     point = target_from_source * point;

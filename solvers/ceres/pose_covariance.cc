@@ -299,28 +299,40 @@ double EstimateSigma(const CenteredMatches& matches,
 
 }  // namespace
 
-bool PoseCovarianceOptions::IsValid(std::string* error) const {
+bool CovarianceOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  const auto is_positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   const auto check = [&](const char* name, double value) {
-    if (problem.tellp() != 0 || is_positive(value)) return;
-    problem << name << " = " << value << ", must be > 0 and finite";
+    if (problem.tellp() != 0 || (value > 0.0 && std::isfinite(value))) return;
+    problem << "covariance." << name << " = " << value
+            << ", must be > 0 and finite";
   };
-  check("covariance.sigma", sigma);
-  check("covariance.tilt_std", tilt_std);
-  check("covariance.max_rotation_std", max_rotation_std);
-  check("covariance.max_translation_std", max_translation_std);
-  if (prior) check("covariance.prior.angle_std", prior->angle_std);
+  check("tilt_std", tilt_std);
+  check("max_rotation_std", max_rotation_std);
+  check("max_translation_std", max_translation_std);
   if (problem.tellp() != 0) {
   } else if (!(min_lever >= 0.0 && std::isfinite(min_lever))) {
     problem << "covariance.min_lever = " << min_lever
             << ", must be >= 0 and finite";
-  } else if (!(std::abs(up_in_target.norm() - 1.0) <= 1e-6)) {
-    problem << "covariance.up_in_target = (" << up_in_target.transpose()
-            << "), must be a unit vector";
   } else if (max_ceres_matches < 0) {
     problem << "covariance.max_ceres_matches = " << max_ceres_matches
             << ", must be >= 0";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+bool PoseCovarianceOptions::IsValid(std::string* error) const {
+  if (!CovarianceOptions::IsValid(error)) return false;
+  std::ostringstream problem;
+  const auto is_positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  if (!is_positive(sigma)) {
+    problem << "covariance.sigma = " << sigma << ", must be > 0 and finite";
+  } else if (prior && !is_positive(prior->angle_std)) {
+    problem << "covariance.prior.angle_std = " << prior->angle_std
+            << ", must be > 0 and finite";
+  } else if (!(std::abs(up_in_target.norm() - 1.0) <= 1e-6)) {
+    problem << "covariance.up_in_target = (" << up_in_target.transpose()
+            << "), must be a unit vector";
   }
   *error = problem.str();
   return error->empty();

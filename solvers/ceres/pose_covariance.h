@@ -54,34 +54,43 @@ enum class PoseModel {
   kYawTranslation,
 };
 
-// The noise, and from where on a direction counts as held.
-struct PoseCovarianceOptions {
-  PoseModel model = PoseModel::kRigid;
-
-  // Of a match on each axis [m]; or from the residuals, where there are more of
-  // them than freedoms, but no less than sigma / 3.
-  double sigma = 0.1;
+// How the covariance is computed, and when a direction counts as observable.
+struct CovarianceOptions {
+  // Estimate sigma from the residuals, if there are more of them than freedoms,
+  // but not below sigma / 3.
   bool sigma_from_residuals = false;
 
-  // For kYawTranslation: the vertical, a unit vector, and the tilt's standard
-  // deviation about either level axis [rad].
-  Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
+  // For kYawTranslation: the standard deviation of the tilt about either level
+  // axis [rad].
   double tilt_std = 0.0175;
+
+  // Directions with a larger standard deviation, at c, are named.
+  double max_rotation_std = 0.01;    // [rad]
+  double max_translation_std = 0.3;  // [m]
+
+  // A rotation about an axis is constrained by noise alone if the root mean
+  // square distance of the points from the axis is below this many sigma.
+  double min_lever = 2.0;
+
+  // With more matches, J^T J is summed and inverted without Ceres.
+  Eigen::Index max_ceres_matches = 2000;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// The same, and what the estimator decides.
+struct PoseCovarianceOptions : CovarianceOptions {
+  PoseModel model = PoseModel::kRigid;
+
+  double sigma = 0.1;  // Standard deviation of a match on each axis [m].
+
+  // For kYawTranslation: the vertical, a unit vector.
+  Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
 
   // For kRigid: a term of (1) beside the matches
   // (solvers/ceres/ins_refinement.h).
   std::optional<VerticalPrior> prior;
-
-  // Directions less certain than this are named, at c.
-  double max_rotation_std = 0.01;    // [rad]
-  double max_translation_std = 0.3;  // [m]
-
-  // An axis from which the points are no farther than so many sigma (root mean
-  // square) is held by noise alone.
-  double min_lever = 2.0;
-
-  // Of more matches J^T J is summed up and inverted without Ceres.
-  Eigen::Index max_ceres_matches = 2000;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

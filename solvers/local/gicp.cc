@@ -144,16 +144,16 @@ AlignmentSummary SolveWithNormals(
   AlignmentSummary summary;
   if (!CanAlign(source, target, options, &summary)) return summary;
   Stopwatch stopwatch;
-  const KdTree source_tree(source);
-  const KdTree target_tree(target);
+  DescribedCloud source_cloud, target_cloud;
+  source_cloud.tree = std::make_shared<const KdTree>(source);
+  target_cloud.tree = std::make_shared<const KdTree>(target);
   const double tree_seconds = stopwatch.Lap();
-  const Points source_normals =
-      EstimateNearestNormals(source_tree, num_neighbors, options.num_threads);
-  const Points target_normals =
-      EstimateNearestNormals(target_tree, num_neighbors, options.num_threads);
+  for (DescribedCloud* cloud : {&source_cloud, &target_cloud}) {
+    cloud->normals = EstimateNearestNormals(
+        *cloud->tree, num_neighbors, options.num_threads);
+  }
   const double normal_seconds = stopwatch.Lap();
-  summary = solve(DescribedCloud{source_tree, source_normals},
-                  DescribedCloud{target_tree, target_normals});
+  summary = solve(source_cloud, target_cloud);
   summary.stage_times.insert(
       summary.stage_times.begin(),
       {{"trees", tree_seconds}, {"normals", normal_seconds}});

@@ -228,7 +228,7 @@ TEST(JsonReportTest, StructureThatWasNotMeasuredIsNull) {
 
 TEST(JsonReportTest, OptionsAreDescribedByTheirNamesInTheLibrary) {
   RegistrationOptions options;
-  options.quatro.noise_bound = 0.15;
+  options.noise_bound = 0.15;
   options.quatro.gnc.start = GncStart::kIdentity;
   options.front_end.normal_radius = 0.5;
   const Json quatro = DescribeOptions(options.quatro);

@@ -103,7 +103,7 @@ class PairViewTest : public ::testing::Test {
     pair_.source = RoomSource().points;
     pair_.target = RoomTarget().points;
     pair_.true_target_from_source = TrueRoomPose();
-    pair_.noise_bound = options_.quatro.noise_bound;
+    pair_.noise_bound = options_.noise_bound;
     answer_.method = "quatro";
     answer_.summary = Register(RoomSource(), RoomTarget(), options_);
   }

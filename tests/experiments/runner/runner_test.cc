@@ -425,7 +425,7 @@ TEST(RunProblemTest, AnOwnMethodIsGivenTheOptions) {
                     };
                   }}};
   methods.names = {"mine"};
-  methods.options.quatro.noise_bound = 0.125;
+  methods.options.noise_bound = 0.125;
   methods.options.seed = 17;
   const Rigid3 truth{RotationZ(-1.0), {1.0, 2.0, 0.0}};
   const TaskOutcome outcome = RunProblem(ProblemTask(truth), methods);

@@ -55,7 +55,7 @@ TEST(MakePreset, PaperHasThePapersNumbers) {
   EXPECT_EQ(paper->front_end.voxel_size, 0.3);
   EXPECT_EQ(paper->front_end.normal_radius, 0.5);
   EXPECT_EQ(paper->front_end.fpfh_radius, 0.65);
-  EXPECT_EQ(paper->quatro.noise_bound, 0.15);
+  EXPECT_EQ(paper->noise_bound, 0.15);
   EXPECT_EQ(paper->quatro.tim_bound_factor, 1.0);
   EXPECT_EQ(paper->quatro.gnc.start, GncStart::kIdentity);
   EXPECT_EQ(paper->quatro.gnc.mu_step, 1.4);
@@ -70,7 +70,7 @@ TEST(MakePreset, PaperHasThePapersNumbers) {
 TEST(MakePreset, ReferenceHasTheNumbersOfTheAuthorsCode) {
   const auto reference = MakePreset("reference");
   EXPECT_EQ(reference->front_end.fpfh_radius, 0.75);
-  EXPECT_EQ(reference->quatro.noise_bound, 0.3);
+  EXPECT_EQ(reference->noise_bound, 0.3);
   EXPECT_EQ(reference->quatro.tim_bound_factor, 2.0);
   EXPECT_EQ(reference->quatro.gnc.start, GncStart::kPlainFit);
   EXPECT_FALSE(reference->quatro.polish);
@@ -87,7 +87,7 @@ TEST(MakePreset, IndoorIsKittiAtAThird) {
   EXPECT_NEAR(
       indoor->front_end.fpfh_radius, kitti->front_end.fpfh_radius / 3.0, 1e-12);
   EXPECT_NEAR(
-      indoor->quatro.noise_bound, kitti->quatro.noise_bound / 3.0, 1e-12);
+      indoor->noise_bound, kitti->noise_bound / 3.0, 1e-12);
 }
 
 // A street corner of 16 m.
@@ -105,7 +105,7 @@ TEST_F(AutoOptionsTest, AreValidAndInProportion) {
   const double voxel_size = options.front_end.voxel_size;
   EXPECT_NEAR(options.front_end.normal_radius, 3.0 * voxel_size, 1e-12);
   EXPECT_NEAR(options.front_end.fpfh_radius, 5.0 * voxel_size, 1e-12);
-  EXPECT_NEAR(options.quatro.noise_bound, voxel_size, 1e-12);
+  EXPECT_NEAR(options.noise_bound, voxel_size, 1e-12);
 }
 
 TEST_F(AutoOptionsTest, ScaleWithTheCloud) {

@@ -122,7 +122,7 @@ TEST_F(RegistrationTest, SwappingSourceAndTargetInvertsThePose) {
   EXPECT_LE(LargestDisplacement(Inverse(*backward.target_from_source()),
                                 *forward.target_from_source(),
                                 source_.points),
-            options_.quatro.noise_bound);
+            options_.noise_bound);
 }
 
 TEST_F(RegistrationTest, StagesAreReportedAsTheyEnd) {
@@ -376,7 +376,7 @@ TEST(RegistrationOptions, ErrorNamesTheFieldAndNothingIsTried) {
   expect_error([](Options o) { o->front_end.fpfh_radius = kInfinity; },
                "fpfh_radius = inf, must be <= 100 voxel_size = 30");
   expect_error([](Options o) { o->front_end.tuple.scale = 1.0; }, "scale = 1");
-  expect_error([](Options o) { o->quatro.noise_bound = 0.0; },
+  expect_error([](Options o) { o->noise_bound = 0.0; },
                "noise_bound = 0");
   expect_error([](Options o) { o->quatro.gnc.max_num_iterations = 0; },
                "max_num_iterations = 0");

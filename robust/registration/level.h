@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The door between the frames of the clouds and level frames. Everything behind
+// it works with z up: clouds and matches are leveled once, and the summary is
+// taken back,
+//
+//   x_in_level = L x,   target_from_source = L_t^-1 T_level L_s,            (1)
+//
+// with rotations L_s of the source and L_t of the target (robust/registration/
+// ins.h). If both are the identity, nothing is copied and nothing changes.
+
+#ifndef QUATRO_ROBUST_REGISTRATION_LEVEL_H_
+#define QUATRO_ROBUST_REGISTRATION_LEVEL_H_
+
+#include "features/base/types.h"
+#include "features/described_cloud.h"
+#include "robust/estimators/pose_bounds.h"
+#include "robust/registration/ins.h"
+#include "robust/registration/summary.h"
+
+namespace quatro {
+
+// Rotates column by column, so that equal columns stay equal to the last bit,
+// which a product of matrices does not promise.
+Points Leveled(const Eigen::Matrix3d& level_from_cloud,
+               const PointsRef& points);
+
+// The cloud, its normals and its sensor in the level frame.
+DescribedCloud Leveled(const Eigen::Matrix3d& level_from_cloud,
+                       const DescribedCloud& cloud);
+
+// The bounds on T_level. With an INS the guess is level: its own roll and
+// pitch, which need not be known, are replaced by those of the INS.
+PoseBounds Leveled(const LevelFrames& frames,
+                   const InsOptions& ins,
+                   const PoseBounds& bounds);
+
+// Takes everything in the summary but the matches back to the frames of the
+// clouds, by (1).
+void TakeBack(const LevelFrames& frames, RegistrationSummary* summary);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_LEVEL_H_

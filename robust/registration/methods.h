@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The registry of methods: a name, a description, the options and a solver
+// each. A new estimator is one file in robust/estimators/ and one line in
+// methods.cc; it is then known to every program, table and figure, and to
+// Python.
+
+#ifndef QUATRO_ROBUST_REGISTRATION_METHODS_H_
+#define QUATRO_ROBUST_REGISTRATION_METHODS_H_
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "robust/estimators/pose_summary.h"
+#include "robust/registration/option_list.h"
+#include "robust/registration/options.h"
+
+namespace quatro {
+
+// What a method works on.
+enum class MethodInput {
+  kMatches,  // Matched points, from clouds by way of the front end.
+  kClouds,   // Two clouds and a guess: local registration.
+};
+
+// Whether a method can use the attitudes of an INS: those that estimate roll
+// and pitch by themselves cannot.
+enum class InsUse { kRefused, kTaken, kNeeded };
+
+// One line of the registry.
+struct Method {
+  const char* name;
+  const char* description;
+  MethodInput input;
+  InsUse ins;
+
+  // The options that this method reads; any other is an error.
+  OptionList (*options)(RegistrationOptions* options);
+
+  // The solver, for kMatches; `options` with shared values.
+  PoseSolver (*make)(const RegistrationOptions& options);
+
+  // Sets what makes the method another than that it builds on, e.g. the number
+  // of iterations of ransac1k; null if there is nothing to set.
+  void (*adjust)(RegistrationOptions* options);
+};
+
+// All methods, in the order of help texts and tables.
+std::span<const Method> Methods();
+
+// Names of the methods for this input.
+std::vector<std::string> MethodNames(MethodInput input);
+
+// Returns a nullptr and sets *error for a name that is not in the registry.
+const Method* FindMethod(const std::string& name, std::string* error);
+
+// All options that a call with this method takes: the common ones, the front
+// end's and the refinement's where there are clouds, the method's, and an INS'.
+OptionList OptionsOf(const Method& method,
+                     bool has_clouds,
+                     RegistrationOptions* options);
+
+// Returns false and sets *error if the method cannot use options.ins, or needs
+// an INS that is not there.
+bool CanUseIns(const Method& method, const InsOptions& ins, std::string* error);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_METHODS_H_

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// All options of the way from clouds, or from matched points, to a verdict.
+//
+// Seed, threads, noise bound and the vertical stand once, here. Each part has
+// fields of these names too, because it can be called by itself; behind the two
+// doors they must be left at their defaults or equal those here: IsValid()
+// refuses others.
+
+#ifndef QUATRO_ROBUST_REGISTRATION_OPTIONS_H_
+#define QUATRO_ROBUST_REGISTRATION_OPTIONS_H_
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "features/base/stopwatch.h"
+#include "robust/estimators/arc_consensus.h"
+#include "robust/estimators/fgr.h"
+#include "robust/estimators/pose_bounds.h"
+#include "robust/estimators/pose_summary.h"
+#include "robust/estimators/quatro.h"
+#include "robust/estimators/ransac.h"
+#include "robust/estimators/teaser.h"
+#include "robust/registration/front_end.h"
+#include "robust/registration/ins.h"
+#include "robust/registration/refinement.h"
+#include "robust/verdict/evidence.h"
+#include "robust/verdict/surface_observability.h"
+#include "robust/verdict/verdict.h"
+#include "solvers/ceres/pose_covariance.h"
+
+namespace quatro {
+
+// See above; the defaults are those of preset kitti.
+struct RegistrationOptions {
+  FrontEndOptions front_end;
+
+  // The estimator, by its name in the registry
+  // (robust/registration/methods.h), and the options of each.
+  std::string method = "quatro";
+  QuatroOptions quatro;
+  ArcConsensusOptions arc_consensus;
+  TeaserOptions teaser;
+  FgrOptions fgr;
+  RansacOptions ransac;
+
+  // Another estimator in place of `method`, given the matches with z up.
+  PoseSolver solver;
+
+  // Half the edge of the box that the residual of an inlier lies in, or the
+  // radius of its ball, depending on the estimator [m].
+  double noise_bound = 0.3;
+
+  // Where the pose may lie; unbounded by default.
+  PoseBounds bounds;
+
+  // Roll and pitch from an INS, and which way is up.
+  InsOptions ins;
+
+  CovarianceOptions covariance;
+  SurfaceObservabilityOptions surface_observability;
+  EvidenceOptions evidence;
+  VerdictOptions verdict;
+
+  // Local registration of the voxel means from the pose found. None by default.
+  RefinementOptions refinement;
+
+  int num_threads = 1;  // 0: all cores. Never changes the answer.
+  std::uint64_t seed = 0;
+
+  // Called when a stage ends, with its name and duration.
+  std::function<void(const StageTime&)> progress;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// The same with seed, threads and noise bound handed down to every part.
+RegistrationOptions WithSharedValues(RegistrationOptions options);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_OPTIONS_H_

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// What a registration reports: the pose, the verdict, and what each stage made
+// of the clouds or the matches.
+
+#ifndef QUATRO_ROBUST_REGISTRATION_SUMMARY_H_
+#define QUATRO_ROBUST_REGISTRATION_SUMMARY_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "features/base/rigid3.h"
+#include "features/base/stopwatch.h"
+#include "features/base/types.h"
+#include "robust/estimators/pose_summary.h"
+#include "robust/registration/refinement.h"
+#include "robust/verdict/surface_observability.h"
+#include "robust/verdict/verdict.h"
+
+namespace quatro {
+
+// Everything is in the frames of the clouds as they were given.
+struct RegistrationSummary {
+  // Why nothing was tried: an option out of range, a cloud without points or
+  // too wide. Empty otherwise.
+  std::string error;
+
+  Verdict verdict;
+
+  // The matches, column by column: voxel means for clouds.
+  Points matched_source;  // [m]
+  Points matched_target;  // [m]
+
+  // Only for clouds.
+  Eigen::Index num_source_voxels = 0;
+  Eigen::Index num_target_voxels = 0;
+  Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
+
+  // The final pose, refined if a refinement was accepted, and its covariance:
+  // that of the pose before refinement.
+  PoseSummary solution;
+  std::optional<RefinementSummary> refinement;  // If it was tried.
+
+  // Which directions the surfaces constrain. The others are also among the
+  // unobservable directions of solution.covariance.
+  std::optional<SurfaceObservability> surface_observability;
+
+  std::vector<StageTime> stage_times;
+  double total_seconds = 0.0;
+
+  // Set iff there is a pose; the verdict says whether it can be relied on.
+  const std::optional<Rigid3>& target_from_source() const {
+    return solution.target_from_source;
+  }
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_SUMMARY_H_
