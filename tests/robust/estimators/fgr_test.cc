@@ -201,7 +201,7 @@ TEST(Fgr, FindsAnyRotationUpToHalfOutliers) {
   }
 }
 
-// Without pruning: up to which outlier ratio GNC succeeds.
+// Without pruning, FGR begins to fail between 50 % and 96 % outliers.
 TEST(Fgr, FailsSomewhereBelowFiftyAndNinetySixPercentOutliers) {
   int num_found = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
