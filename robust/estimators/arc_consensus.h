@@ -10,11 +10,11 @@
 //     -> translation axis by axis from the matches of the inlier pairs
 //     -> yaw and translation refitted to all inliers
 //
-// Of M random pairs about M e^2 consist of two inliers, where e is the inlier
-// ratio. Their yaws agree in one arc of the circle, while those of the other
-// pairs that pass the test are spread over all of it. So the required M depends
-// on e but not on N; M e^2 >= 50 is safe. There is no clique, and no memory
-// that grows with the square of N.
+// About M e^2 of the M random pairs consist of two inliers, where e is the
+// inlier ratio. Their yaws lie in one arc of the circle, while those of the
+// other pairs that pass the test are spread over all of it. So the required M
+// depends on e but not on N; M e^2 >= 50 is safe. There is no clique, and no
+// memory that grows with the square of N.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_ARC_CONSENSUS_H_
 #define QUATRO_ROBUST_ESTIMATORS_ARC_CONSENSUS_H_

@@ -21,7 +21,7 @@
 
 namespace quatro {
 
-constexpr double kCrosscheckStart = 0.5;  // From the closed form [rad].
+constexpr double kCrosscheckStart = 0.5;  // Start's offset [rad].
 
 // The difference between the closed form and Ceres [rad], infinite if Ceres
 // fails.

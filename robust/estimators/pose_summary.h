@@ -43,7 +43,7 @@ struct CrosscheckReport {
   double max_translation_difference = 0.0;  // [m]
 };
 
-// What a stage did and why it stopped, in words.
+// A note on what a stage did and why it stopped.
 struct StageNote {
   std::string stage;
   std::string text;
@@ -70,7 +70,7 @@ struct PoseSummary {
   // estimator.
   std::optional<PoseCovariance> covariance;
 
-  double scale = 1.0;  // From source to target; 1 unless estimated.
+  double scale = 1.0;  // Target = scale * source; 1 unless estimated.
 
   // The number of consistent matches that this estimator needs.
   int num_needed = 0;
@@ -93,7 +93,7 @@ struct PoseSummary {
   std::optional<YawCertificate> certificate;
   std::optional<CrosscheckReport> crosscheck;
   std::vector<StageTime> stage_times;
-  std::vector<StageNote> notes;  // By stage; not all have one.
+  std::vector<StageNote> notes;  // Ordered by stage; some have none.
 
   bool IsUsable() const { return target_from_source.has_value(); }
 

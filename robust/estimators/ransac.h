@@ -45,7 +45,7 @@ struct RansacOptions {
   MinimalPoseOptions minimal;  // Includes the noise bound b, a radius [m].
 
   std::int64_t max_iterations = 10'000;  // Largest number of samples.
-  double confidence = 0.999;  // Of (2); 1: never stop before max_iterations.
+  double confidence = 0.999;  // See (2); 1: never stop before max_iterations.
 
   // Refit every new best pose while the bound shrinks from 3 b to b, and keep
   // the refit if its cost is lower.

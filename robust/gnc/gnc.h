@@ -83,7 +83,7 @@ struct GncSummary {
   GncTermination termination = GncTermination::kUndetermined;
   std::string message;                // Which criterion or error ended it.
   std::optional<Estimate> estimate;   // Set iff IsUsable().
-  Weights weights;                    // Of the last fit.
+  Weights weights;                    // The weights of the last fit.
   Eigen::VectorXd squared_residuals;  // At the estimate; inlier iff <= 1.
   std::vector<GncIteration> iterations;
 

@@ -26,7 +26,7 @@ struct QuasiSo3 {
 
   Points source;             // alpha_k [m]
   Points target;             // beta_k [m]
-  double noise_bound = 1.0;  // Of the differences, in the plane [m].
+  double noise_bound = 1.0;  // Radius, for differences [m].
 
   Eigen::Index NumMeasurements() const { return source.cols(); }
 

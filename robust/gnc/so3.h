@@ -25,7 +25,7 @@ struct So3 {
 
   Points source;             // alpha_k [m]
   Points target;             // beta_k [m]
-  double noise_bound = 1.0;  // Of the differences, a radius [m].
+  double noise_bound = 1.0;  // Radius, for differences [m].
 
   Eigen::Index NumMeasurements() const { return source.cols(); }
 

@@ -65,7 +65,7 @@ struct ExactCliqueOptions {
   bool IsValid(std::string* error) const;
 };
 
-// What is proved about the clique.
+// How much is proved about the clique.
 enum class ExactCliqueTermination {
   kInvalidOptions,  // The search was not run; see the message.
   kOptimal,         // There is no larger clique.
@@ -82,7 +82,7 @@ struct ExactCliqueSummary {
   std::string message = "FindMaximumClique was not called";
   std::vector<int> clique;  // In ascending order; empty iff no vertices.
   bool is_optimal = false;
-  int upper_bound = 0;  // Of the clique size; equal to it iff optimal.
+  int upper_bound = 0;            // For any clique; clique.size() iff optimal.
   std::int64_t num_branches = 0;  // Candidate sets that were colored.
 };
 

@@ -23,7 +23,7 @@ namespace quatro {
 
 // The core numbers of a graph.
 struct CoreDecomposition {
-  std::vector<int> core_number;  // Of each vertex.
+  std::vector<int> core_number;  // One for each vertex.
   std::vector<int> order;        // Vertices in the order of removal.
   int max_core = 0;              // 0 for a graph without edges.
 };

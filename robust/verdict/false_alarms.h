@@ -46,7 +46,7 @@ namespace quatro {
 struct FalseAlarms {
   std::string stage;             // "clique", "rotation" or "pose".
   Eigen::Index num_tested = 0;   // N or K
-  Eigen::Index num_inliers = 0;  // Of the num_tested.
+  Eigen::Index num_inliers = 0;  // Among num_tested.
   double chance = 0.0;           // p
   double log10_false_alarms = 0.0;
 };

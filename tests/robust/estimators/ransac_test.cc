@@ -156,7 +156,7 @@ TEST(Ransac, StopsOnceConfident) {
 TEST(Ransac, FindsThePoseAmongOutliers) {
   struct Case {
     MinimalSample sample;
-    std::vector<Eigen::Index> num_inliers;  // Of 600.
+    std::vector<Eigen::Index> num_inliers;  // Out of 600.
   };
   const Case cases[] = {
       {MinimalSample::kThreePoints, {600, 300, 120, 60}},
