@@ -41,7 +41,7 @@ std::vector<TimPair> FindGatedPairs(const DistinctMatches& matches,
            std::abs(a.z() - b.z()) <= bound + length * sin_tilt;
   };
 
-  // n (n - 1) / 2 would overflow for no n that fits into memory.
+  // n (n - 1) / 2 does not overflow for any n that fits into memory.
   const bool takes_all = n * (n - 1) / 2 <= options.num_pairs;
   const Eigen::Index num_pairs = takes_all ? n : options.num_pairs;
   const Eigen::Index piece = takes_all ? 64 : kPiece;
@@ -131,7 +131,7 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   }
   summary.num_rotation_inliers = yaw->num_inliers;
 
-  // In pairs by the hundred thousand, if many matches are right.
+  // There are hundreds of thousands of pairs if many matches are inliers.
   std::vector<bool> agrees(static_cast<std::size_t>(summary.num_matches));
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!yaw->is_inlier[static_cast<Eigen::Index>(k)]) continue;
@@ -153,7 +153,7 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
           options.noise_bound)
           ->target_from_source;
 
-  // Once more from all that agree, and kept if no fewer do then.
+  // Refit to all inliers; keep the refit unless it has fewer inliers.
   std::vector<Eigen::Index> inliers = FindInliers(
       matches.source, matches.target, target_from_source, options.noise_bound);
   const auto again = EstimateYawTranslation(

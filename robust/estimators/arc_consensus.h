@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Quatro without a graph: the motion on the ground from very many matches,
-// nearly all of them wrong, in memory O(N + M).
+// Quatro without a consistency graph: the motion on the ground from very many
+// matches, most of them outliers, in memory O(N + M).
 //
 //   M random pairs of matches
-//     -> those that keep their planar length and height difference
+//     -> pairs that keep their planar length and height difference
 //     -> yaw by the exact sweep of their differences
-//     (solvers/closed_form/exact_yaw.h)
-//     -> translation axis by axis from the matches of the agreeing pairs
-//     -> yaw and translation once more from all matches that agree.
+//        (solvers/closed_form/exact_yaw.h)
+//     -> translation axis by axis from the matches of the inlier pairs
+//     -> yaw and translation refitted to all inliers
 //
-// Of N matches with inlier ratio e, M e^2 of the pairs are right; they agree in
-// one arc of the circle, while the wrong ones that pass the gate spread over
-// all of it. So M is what decides, not N: M e^2 of 50 and more is safe. There
-// is no clique, hence nothing to grow with the square of N.
+// About M e^2 of the M random pairs consist of two inliers, where e is the
+// inlier ratio. Their yaws lie in one arc of the circle, while those of the
+// other pairs that pass the test are spread over all of it. So the required M
+// depends on e but not on N; M e^2 >= 50 is safe. There is no clique, and no
+// memory that grows with the square of N.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_ARC_CONSENSUS_H_
 #define QUATRO_ROBUST_ESTIMATORS_ARC_CONSENSUS_H_
@@ -27,15 +28,16 @@
 
 namespace quatro {
 
-// How far a match may be off, and how many pairs are drawn.
+// The noise bound, the pairs, and their number.
 struct ArcConsensusOptions {
-  double noise_bound = 0.3;  // How far a right match may be off [m].
-  double max_tilt = 0.035;   // Between the scans, widens the height gate [rad].
+  // Largest error of an inlier on each axis (half the edge of a box) [m].
+  double noise_bound = 0.3;
+  double max_tilt = 0.035;  // Between the scans; widens the height test [rad].
 
-  // M. All pairs are taken if there are no more.
+  // M. All pairs are used if there are no more than this.
   Eigen::Index num_pairs = 1'000'000;
 
-  // Shorter pairs say little about the yaw and pass the gate by chance [m].
+  // Shorter pairs constrain the yaw poorly and pass the test by chance [m].
   double min_planar_length = 3.0;
 
   std::uint64_t seed = 0;
@@ -45,10 +47,9 @@ struct ArcConsensusOptions {
   bool IsValid(std::string* error) const;
 };
 
-// `consistent` are the matches of the pairs that agree with the yaw;
-// `translation_inliers` are all that agree with the pose.
-//
-// Column i of `source` is matched with column i of `target` [m].
+// Column i of `source` is matched with column i of `target` [m]. In the
+// summary, `consistent` are the matches of the pairs that are inliers of the
+// yaw, and `translation_inliers` are all inliers of the pose.
 PoseSummary SolveArcConsensus(const PointsRef& source,
                               const PointsRef& target,
                               const ArcConsensusOptions& options);

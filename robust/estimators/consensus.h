@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How well a pose explains matched points: truncated least squares in space,
+// How well a pose fits matched points: the truncated squared error,
 //
 //   f(R, t) = sum_i min( |q_i - R p_i - t|^2 / b^2, 1 ).                   (1)
 //
-// It has no favourite axes, unlike the translation axis by axis: poses in SE(3)
-// are chosen by it.
+// It does not depend on the axes, unlike the inliers of the translation axis by
+// axis. Poses in SE(3) are compared by it.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_CONSENSUS_H_
 #define QUATRO_ROBUST_ESTIMATORS_CONSENSUS_H_
@@ -18,19 +18,21 @@
 
 namespace quatro {
 
-// (1) for `noise_bound` b [m].
+// Equation (1) for `noise_bound` b, a radius [m].
 double ConsensusCost(const PointsRef& source,
                      const PointsRef& target,
                      const Rigid3& target_from_source,
                      double noise_bound);
 
-// The columns that (1) does not truncate, in ascending order.
+// The columns with |q_i - R p_i - t| <= b, which (1) does not truncate, in
+// ascending order. `noise_bound` b is a radius [m].
 std::vector<Eigen::Index> FindWithinBall(const PointsRef& source,
                                          const PointsRef& target,
                                          const Rigid3& target_from_source,
                                          double noise_bound);
 
-// The columns with |q_i - R p_i - t| <= b on each axis, in ascending order.
+// The columns with |q_i - R p_i - t| <= b on each axis of the target frame, in
+// ascending order. `noise_bound` b is half the edge of a box [m].
 std::vector<Eigen::Index> FindInliers(const PointsRef& source,
                                       const PointsRef& target,
                                       const Rigid3& target_from_source,

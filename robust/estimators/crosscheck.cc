@@ -24,8 +24,8 @@ Eigen::Matrix3d TurnedAway(const Eigen::Matrix3d& rotation) {
          rotation;
 }
 
-// `centroid` of the source: where turns and shifts do not mix, so that a
-// difference in the turn is not counted again as one of the shift.
+// Translations are compared at the `centroid` of the source, so that a
+// difference in rotation does not also count as one in translation.
 void Add(const Rigid3& closed_form,
          const Rigid3& twin,
          bool is_usable,

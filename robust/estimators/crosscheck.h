@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Every closed form of a run against its Ceres twin.
+// Comparison of every closed form in a run with its Ceres twin.
 //
-// CrossChecked<Subproblem> stands in for a subproblem of robust/gnc/gnc.h: it
-// gives the closed form's answers and keeps the largest difference from what
-// Ceres finds for the same weights on the manifold, started half a radian away.
+// CrossChecked<Subproblem> wraps a subproblem of robust/gnc/gnc.h. It returns
+// the closed-form estimates and records the largest difference from those of
+// Ceres, which solves with the same weights on the manifold, started half a
+// radian away.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_CROSSCHECK_H_
 #define QUATRO_ROBUST_ESTIMATORS_CROSSCHECK_H_
@@ -20,10 +21,10 @@
 
 namespace quatro {
 
-constexpr double kCrosscheckStart = 0.5;  // Off the closed form [rad].
+constexpr double kCrosscheckStart = 0.5;  // Start's offset [rad].
 
-// Largest difference between the closed form and Ceres [rad], infinite if Ceres
-// gives no answer.
+// The difference between the closed form and Ceres [rad], infinite if Ceres
+// fails.
 double CrosscheckDifference(const QuasiSo3& subproblem,
                             const WeightsRef& weights,
                             const YawEstimate& closed_form);
@@ -31,13 +32,13 @@ double CrosscheckDifference(const So3& subproblem,
                             const WeightsRef& weights,
                             const RotationEstimate& closed_form);
 
-// A subproblem that solves everything twice and keeps the largest difference.
+// A subproblem that solves everything twice and records the largest difference.
 template <typename Subproblem>
 class CrossChecked {
  public:
   using Estimate = typename Subproblem::Estimate;
 
-  // `subproblem` must outlive this.
+  // `subproblem` must outlive this object.
   explicit CrossChecked(const Subproblem& subproblem)
       : subproblem_(subproblem) {}
 
@@ -57,7 +58,7 @@ class CrossChecked {
     return estimate;
   }
 
-  // Of all that was solved so far.
+  // The largest difference over all solves so far.
   const CrosscheckReport& report() const { return report_; }
 
  private:
@@ -65,8 +66,8 @@ class CrossChecked {
   mutable CrosscheckReport report_;
 };
 
-// Yaw and translation jointly, and the whole pose where the matches hold it, on
-// the given inliers; adds to *report.
+// Compares the joint yaw and translation, and the full pose if the matches
+// constrain it, on the given inliers. Adds to *report.
 void CrosscheckPose(const PointsRef& source,
                     const PointsRef& target,
                     std::optional<CrosscheckReport>* report);

@@ -19,7 +19,7 @@ namespace {
 std::uint64_t Hash(const Eigen::Vector3d& point) {
   std::uint64_t hash = 0;
   for (const double x : point) {
-    hash = Mix(hash ^ std::bit_cast<std::uint64_t>(x + 0.0));  // -0 is 0.
+    hash = Mix(hash ^ std::bit_cast<std::uint64_t>(x + 0.0));  // Maps -0 to 0.
   }
   return hash;
 }

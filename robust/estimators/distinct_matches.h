@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Matches in an order of their own: copies of one match taken together, the
-// rest shuffled by a hash of the coordinates. What is computed from them
-// depends on neither the order nor the repetition of the input, and neighbours
-// in this order are no neighbours in space, so differences between them are
-// long.
+// Distinct matches in an order that does not depend on the order of the input:
+// copies of one match are merged, and the rest is sorted by a hash of the
+// coordinates. Results computed from them depend on neither the order nor the
+// repetition of the input. Neighbors in this order are usually not neighbors in
+// space, so differences between them are long.
 //
-// The hash is the same for (p, q) and (q, p): swapping source and target keeps
-// the order.
+// The hash is the same for (p, q) and (q, p), so swapping source and target
+// keeps the order.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_DISTINCT_MATCHES_H_
 #define QUATRO_ROBUST_ESTIMATORS_DISTINCT_MATCHES_H_
@@ -19,24 +19,25 @@
 
 namespace quatro {
 
-// Matches without copies, in an order of their own.
+// Matches without copies, in the order of their hashes.
 struct DistinctMatches {
   Points source;
   Points target;
-  // Columns of the input that column k stands for.
+  // The columns of the input that are copies of column k.
   std::vector<std::vector<Eigen::Index>> columns;
 };
 
-// Of matches column by column.
+// Column i of `source` is matched with column i of `target`.
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target);
 
-// The input columns that the given distinct matches stand for, in ascending
-// order.
+// The input columns of the given distinct matches, all copies included, in
+// ascending order.
 std::vector<Eigen::Index> InputColumns(
     const DistinctMatches& matches, const std::vector<Eigen::Index>& selected);
 
-// The values of the given distinct matches, in the order of InputColumns().
+// The values of the given distinct matches, one for each entry of
+// InputColumns().
 std::vector<double> InputValues(const DistinctMatches& matches,
                                 const std::vector<Eigen::Index>& selected,
                                 const std::vector<double>& values);

@@ -25,10 +25,10 @@ namespace {
 
 constexpr int kNumNeeded = 3;
 
-// Matches summed up by one thread; the sums of pieces are added in order.
+// Matches that one thread sums at a time. The sums are added in order.
 constexpr Eigen::Index kPiece = 4096;
 
-// What (3) has of the matches, x = T p, e = q - x.
+// Sums over the matches for (3), with x = T p and e = q - x.
 struct Moments {
   double l = 0.0;
   Eigen::Vector3d lx = Eigen::Vector3d::Zero();
@@ -126,7 +126,7 @@ Rigid3 ComposeLeft(const Eigen::Matrix<double, 6, 1>& xi,
   if (angle > 0.0) {
     turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(omega / angle));
   }
-  // By a quaternion, which stays a rotation over hundreds of steps.
+  // A normalized quaternion remains a rotation over hundreds of steps.
   const Eigen::Quaterniond rotation =
       turn * Eigen::Quaterniond(target_from_source.rotation);
   return {rotation.normalized().toRotationMatrix(),
@@ -149,7 +149,7 @@ FgrSummary SolveFgr(const PointsRef& source,
   summary.termination = PoseTermination::kInsufficient;
   if (summary.num_matches < kNumNeeded) {
     std::ostringstream message;
-    message << "a pose needs three matches, there are " << summary.num_matches;
+    message << "a pose needs three matches; there are " << summary.num_matches;
     summary.message = message.str();
     return summary;
   }
@@ -172,7 +172,7 @@ FgrSummary SolveFgr(const PointsRef& source,
     const auto plain = EstimateRigid(p, q, Weights::Ones(p.cols()));
     if (plain) pose = plain->target_from_source;
   }
-  // In units of delta^2, where the surrogate ends at 1.
+  // In units of delta^2, so that the schedule ends at 1.
   double mu = std::max(1.0, 1.0 / (delta * delta));
   FgrNormalEquations equations;
   while (summary.iterations < options.max_iterations &&
@@ -209,9 +209,9 @@ FgrSummary SolveFgr(const PointsRef& source,
   summary.stage_times.push_back({"fgr", stopwatch.Lap()});
   if (summary.num_consistent < kNumNeeded) {
     std::ostringstream message;
-    message << "of " << summary.num_matches << " matches "
-            << summary.num_consistent
-            << " agree with the pose found, three are needed";
+    message << "a pose needs three inliers; the final pose has "
+            << summary.num_consistent << " among " << summary.num_matches
+            << " matches";
     summary.message = message.str();
     return summary;
   }
@@ -221,7 +221,7 @@ FgrSummary SolveFgr(const PointsRef& source,
   if (!rigid || !HoldsRotation(*rigid, options.noise_bound)) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
-        "the matches that agree hold no rotation: they are on one line";
+        "the inliers do not constrain the rotation: they are on one line";
     return summary;
   }
   summary.num_translation_inliers = summary.num_consistent;
@@ -229,7 +229,9 @@ FgrSummary SolveFgr(const PointsRef& source,
   summary.target_from_source = target_from_source;
   summary.termination = PoseTermination::kSolved;
   summary.message =
-      summary.has_converged ? "solved" : "solved up to max_iterations";
+      summary.has_converged
+          ? "solved"
+          : "solved, but max_iterations was reached before convergence";
   return summary;
 }
 

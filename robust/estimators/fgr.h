@@ -5,26 +5,28 @@
 //   T = argmin  sum_i rho(r_i),   r_i = |q_i - T p_i|,
 //   rho(r) = mu r^2 / (mu + r^2),                                          (1)
 //
-// the loss of Geman and McClure, by its line process: (1) is the least over
-// l_i in [0, 1] of
+// with the Geman-McClure loss and its line process: (1) is the minimum over l_i
+// in [0, 1] of
 //
 //   E(T, l) = sum_i l_i r_i^2 + mu (sqrt(l_i) - 1)^2,
 //   attained at  l_i = ( mu / (mu + r_i^2) )^2.                            (2)
 //
-// Alternates (2) with one Gauss-Newton step for T, linearised in
+// The solver alternates (2) with one Gauss-Newton step for T, linearized in
 // xi = (omega, tau) and composed from the left,
 //
 //   q_i - T p_i - omega x (T p_i) - tau,     T <- exp(xi) T,               (3)
 //
-// while mu falls from D^2 to delta^2, divided by 1.4 every four iterations: D
-// is the extent of the matched points, at which (1) is nearly convex, delta the
-// noise bound. At the last mu the steps go on until they are zero. Full
-// rotation and translation; needs three matches.
+// while mu falls from D^2 to delta^2 and is divided by 1.4 every four
+// iterations. D is the extent of the matched points, at which (1) is nearly
+// convex, and delta the noise bound, a radius. At the last mu the steps
+// continue until convergence. Estimates full rotation and translation, from at
+// least three matches.
 //
-// Not as in the authors' program and Open3D's: there mu itself, not its root,
-// is compared with delta (both relative to D), which stops the schedule at
-// about sqrt(delta D) in place of delta; and there are 64 iterations, which at
-// 1.4 every four bring mu down to no less than D^2 / 218.
+// Differences from the authors' program and Open3D: these compare mu itself,
+// not its root, with delta (both relative to D), which stops the schedule at
+// about sqrt(delta D) instead of delta. They also stop after 64 iterations,
+// which at a factor of 1.4 every four iterations lower mu to no less than D^2 /
+// 218.
 //
 // Source: Zhou, Park and Koltun, "Fast Global Registration", ECCV 2016.
 
@@ -40,22 +42,24 @@
 
 namespace quatro {
 
-// The noise, and how fast the loss tightens to it.
+// The noise bound, the schedule of mu, and when to stop.
 struct FgrOptions {
-  double noise_bound = 0.3;  // delta [m]
+  double noise_bound = 0.3;  // delta, a radius [m].
 
-  // D over the largest distance of a matched point from the mean of its cloud.
+  // D, divided by the largest distance of a matched point from the mean of its
+  // cloud.
   double start_scale = 1.0;
   double mu_step = 1.4;
   int iterations_per_mu = 4;
-  int max_iterations = 1000;  // Of steps (3).
+  int max_iterations = 1000;  // Steps (3).
 
-  // Solved once a step is no longer than this (omega [rad], tau / D).
+  // Converged once the norm of a step (omega [rad], tau / D) is at most this.
   double step_tolerance = 1e-10;
 
-  // The first T: that of plain least squares over all matches, to which a large
-  // mu leads in the end, or the identity about the means, as in the paper. The
-  // steps from there are slow for turns near 180 deg, where the cost is flat.
+  // The initial T. If true: the least-squares pose of all matches, to which a
+  // large mu leads in the end. If false: the identity about the means, as in
+  // the paper. From there the steps are slow for rotations near 180 deg, where
+  // the cost is flat.
   bool start_at_plain_fit = false;
 
   int num_threads = 1;  // 0: all cores. Never changes the answer.
@@ -64,13 +68,13 @@ struct FgrOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The pose, and where the descent ended.
+// The pose, and where the iterations ended.
 struct FgrSummary : PoseSummary {
   int iterations = 0;
-  double mu = 0.0;    // The last one [m^2].
-  double cost = 0.0;  // (1) at the last mu and step [m^2].
+  double mu = 0.0;    // Last value [m^2].
+  double cost = 0.0;  // (1) at the last mu, before the last step [m^2].
   double last_step = 0.0;
-  bool has_converged = false;  // At mu = delta^2, not out of iterations.
+  bool has_converged = false;  // At mu = delta^2.
 };
 
 // Column i of `source` is matched with column i of `target` [m].
@@ -78,21 +82,23 @@ FgrSummary SolveFgr(const PointsRef& source,
                     const PointsRef& target,
                     const FgrOptions& options);
 
-// (3) with the weights (2): sum_i l_i |..|^2 = cost - 2 xi^T b + xi^T A xi.
+// Normal equations of (3) with the weights (2): sum_i l_i |..|^2 = cost - 2
+// xi^T b + xi^T A xi.
 struct FgrNormalEquations {
   Eigen::Matrix<double, 6, 6> A;
   Eigen::Matrix<double, 6, 1> b;
   double loss = 0.0;  // (1)
 };
 
-// (1) at a pose and a mu, line process included.
+// Linearizes (1) at a pose and a mu.
 FgrNormalEquations LinearizeFgr(const PointsRef& source,
                                 const PointsRef& target,
                                 const Rigid3& target_from_source,
                                 double mu,
                                 int num_threads);
 
-// exp(xi) T: turned by omega about the origin of the target, then moved by tau.
+// exp(xi) T: T followed by a rotation by omega about the origin of the target,
+// then by a translation by tau.
 Rigid3 ComposeLeft(const Eigen::Matrix<double, 6, 1>& xi,
                    const Rigid3& target_from_source);
 

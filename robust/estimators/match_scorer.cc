@@ -16,11 +16,11 @@ namespace {
 constexpr Eigen::Index kLanes = 8;
 constexpr Eigen::Index kFields = 7;
 constexpr Eigen::Index kBlockSize = kLanes * kFields;
-// Blocks between two looks at the limit.
+// Blocks between two comparisons with the limit.
 constexpr Eigen::Index kStride = 8;
 
-// Costs of eight matches at a time, one a lane, added up by lane. `motion` is
-// R by rows, then t.
+// Sums the costs of eight matches at a time, one in each lane. `motion` is R by
+// rows, then t.
 QUATRO_SIMD_CLONES double SumCosts(const double* blocks,
                                    Eigen::Index num_blocks,
                                    const double* motion,

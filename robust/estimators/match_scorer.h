@@ -4,8 +4,9 @@
 //
 //   f(R, t) = sum_i min( |q_i - R p_i - t|^2 / b^2, 1 ),                   (1)
 //
-// which is robust/estimators/consensus.h's, laid out for speed: several matches
-// at a time, and no further than a limit, above which nobody asks how much.
+// which is the cost of robust/estimators/consensus.h, optimized for speed: it
+// evaluates several matches at a time and stops once the cost exceeds a given
+// limit. b is a radius.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_MATCH_SCORER_H_
 #define QUATRO_ROBUST_ESTIMATORS_MATCH_SCORER_H_
@@ -18,29 +19,31 @@
 
 namespace quatro {
 
-// (1) of these matches, for one pose after another.
+// Evaluates (1) for fixed matches and many poses.
 class MatchScorer {
  public:
-  // `noise_bound` b > 0 [m].
+  // `noise_bound` b > 0, a radius [m].
   MatchScorer(const PointsRef& source,
               const PointsRef& target,
               double noise_bound);
 
-  // (1) if it is at most `limit`, else some number above `limit`. A match whose
-  // residual is not a number costs 1. The same bits on every machine.
+  // Returns (1) if it is at most `limit`, else some number above `limit`. A
+  // match whose residual is NaN costs 1. The result is the same bit for bit on
+  // every machine.
   double Cost(const Rigid3& target_from_source, double limit) const;
 
-  // The columns with |q_i - R p_i - t| <= factor b, in ascending order.
+  // The columns with |q_i - R p_i - t| <= factor * b, in ascending order.
   std::vector<Eigen::Index> Inliers(const Rigid3& target_from_source,
                                     double factor = 1.0) const;
 
-  // All of them.
+  // The number of matches.
   Eigen::Index num_matches() const { return num_matches_; }
 
  private:
   Eigen::Index num_matches_;
-  // In units of b. A block holds kLanes numbers of each of p_x, p_y, p_z, q_x,
-  // q_y, q_z and of the most that a match may cost: 1, or 0 past the last one.
+  // Lengths are in units of b. A block has kLanes values of each of p_x, p_y,
+  // p_z, q_x, q_y, q_z and the largest cost of a match: 1, or 0 for padding
+  // after the last one.
   std::vector<double> blocks_;
   double noise_bound_;
 };

@@ -84,7 +84,8 @@ std::array<Eigen::Index, 3> DrawSample(MinimalSample sample,
     return static_cast<Eigen::Index>(
         random->Below(static_cast<std::uint64_t>(k)));
   };
-  // Of those left, by rank: the taken ones are stepped over.
+  // Draws ranks among the remaining columns and skips the columns already
+  // taken.
   std::array<Eigen::Index, 3> columns = {below(n), -1, -1};
   if (sample == MinimalSample::kPointAndNormal) return columns;
   columns[1] = below(n - 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A pose from as few matches as hold one, and quick tests of whether it is
-// worth computing.
+// A pose from a minimal number of matches, and fast tests that reject most
+// samples with an outlier.
 //
 //   kThreePoints     R, t in SE(3) from three matches, least squares;
 //   kTwoPoints       R_z(yaw), t from two matches, least squares;
@@ -9,20 +9,21 @@
 //                    its ends:  yaw = angle(m_xy) - angle(n_xy),
 //                               t = q - R_z(yaw) p.
 //
-// If p_i, q_i and p_j, q_j are right up to b each, then
+// If the matches i and j are inliers with errors of at most b each, then
 //
 //   | |q_i - q_j| - |p_i - p_j| | <= 2 b,                                  (1)
 //
-// and samples that break (1) can be dropped before any pose is computed. The
-// test of Open3D is a ratio instead,
+// and samples that violate (1) are rejected before a pose is computed. Open3D
+// tests a ratio instead,
 //
 //   s |p_i - p_j| <= |q_i - q_j|  and  s |q_i - q_j| <= |p_i - p_j|,       (2)
 //
-// which drops short sides that are right and keeps long ones that can't be. On
-// real scans the first is a gain, for short sides hold no rotation, and so is
-// the second, for bounds are guesses; (1) drops more and takes less time.
-// Yaw-only samples must pass for their planar lengths as well, and in height up
-// to a tilt (robust/graph/consistency_graph.h).
+// which rejects some short sides of inliers and accepts some long sides that
+// (1) excludes. On real scans the former helps, because short sides constrain
+// the rotation poorly, and so does the latter, because noise bounds are
+// guesses; (1) rejects more and takes less time. Yaw-only samples must pass for
+// their planar lengths as well, and for heights up to a tilt
+// (robust/graph/consistency_test.h).
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_MINIMAL_POSE_H_
 #define QUATRO_ROBUST_ESTIMATORS_MINIMAL_POSE_H_
@@ -38,31 +39,34 @@
 
 namespace quatro {
 
-// What a pose is made from.
+// The sample from which a pose is computed.
 enum class MinimalSample { kThreePoints, kTwoPoints, kPointAndNormal };
 
-// Matches in a sample: 3, 2 or 1.
+// The number of matches in a sample: 3, 2 or 1.
 int SampleSize(MinimalSample sample);
 
-// What a sample must pass before a pose is made from it.
+// The test that a sample must pass before a pose is computed from it.
 enum class EdgeTest {
   kNone,
   kBound,  // (1)
   kRatio,  // (2)
 };
 
-// The sample and its test.
+// The sample and its tests.
 struct MinimalPoseOptions {
-  double noise_bound = 0.3;  // b [m]
+  double noise_bound = 0.3;  // b, a radius [m].
   MinimalSample sample = MinimalSample::kThreePoints;
   EdgeTest edge_test = EdgeTest::kRatio;
-  double edge_similarity = 0.9;  // s in (2), in (0, 1]; Open3D's default.
+  double edge_similarity = 0.9;  // s of (2), in (0, 1]; Open3D's default.
 
-  // Of yaw-only samples: what roll and pitch may do to heights [rad].
+  // For yaw-only samples: largest tilt between the scans, which changes heights
+  // [rad].
   double max_tilt = 0.035;
 
-  // For kPointAndNormal: normals that are steeper than this have no heading;
-  // those whose z components differ by more are no match.
+  // For kPointAndNormal: a sample is rejected if the horizontal part of a
+  // normal is shorter than min_normal_xy, because its heading is uncertain, or
+  // if the z components of the normals differ by more than
+  // max_normal_z_difference.
   double min_normal_xy = 0.5;
   double max_normal_z_difference = 0.2;
 
@@ -70,21 +74,22 @@ struct MinimalPoseOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Unit normals at the matched points, column by column, oriented alike in both
-// clouds (EstimateNormals() turns them towards the sensor).
+// Unit normals at the matched points, column by column, with the same
+// orientation in both clouds (EstimateNormals() orients them toward the
+// sensor).
 struct MatchedNormals {
   Points source;
   Points target;
 };
 
-// As many different columns of n as the sample takes, n no fewer, drawn from
-// `random`; the others are -1.
+// Draws as many distinct columns in [0, n) as the sample needs; n must not be
+// smaller. The remaining entries are -1.
 std::array<Eigen::Index, 3> DrawSample(MinimalSample sample,
                                        Eigen::Index n,
                                        Random* random);
 
-// Nullopt if the sample fails its test or holds no pose. `normals` are needed
-// for kPointAndNormal alone.
+// Returns nullopt if the sample fails its tests or does not determine a pose.
+// Only kPointAndNormal needs `normals`.
 std::optional<Rigid3> EstimateMinimalPose(
     const PointsRef& source,
     const PointsRef& target,

@@ -25,10 +25,11 @@
 namespace quatro {
 namespace {
 
-// Bounds of the alternation, in noise bounds.
+// Bounds of the alternation, in units of the noise bound.
 constexpr double kSchedule[] = {2.0, 1.5, 1.0, 1.0, 1.0, 1.0};
 
-// (1), from a first pose. Nullopt where the matches don't hold one.
+// Minimizes (1) from an initial pose. Returns nullopt if the inliers do not
+// determine a pose.
 std::optional<Rigid3> Refine(const PointsRef& source,
                              const PointsRef& target,
                              Rigid3 pose,
@@ -49,7 +50,8 @@ std::optional<Rigid3> Refine(const PointsRef& source,
   return pose;
 }
 
-// A first pose in SO(3) from the consistent set, where it holds one.
+// An initial pose with a rotation in SO(3) from the consistent set. Returns
+// nullopt if GNC fails.
 std::optional<Rigid3> SolveSo3(const PointsRef& source,
                                const PointsRef& target,
                                const std::vector<Eigen::Index>& consistent,
@@ -84,8 +86,8 @@ double RotationStd(const PointsRef& source,
   const double least =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(half_curvature)
           .eigenvalues()[0];
-  // A few exact matches have no residuals: assume a tenth of the bound at
-  // least.
+  // A few exact matches have zero residuals, so assume a standard deviation of
+  // at least a tenth of the bound.
   const double floor = 0.01 * noise_bound * noise_bound;
   return std::sqrt(std::max(variance, floor) / std::max(0.0, least));
 }
@@ -115,13 +117,13 @@ PolishSummary Polish(const PointsRef& source,
   const double bound = options.noise_bound;
   PolishSummary summary;
   summary.target_from_source = target_from_source;
-  summary.message = "no pose in SE(3) agrees with more matches";
+  summary.message = "no pose in SE(3) fits the matches better";
 
   std::vector<Rigid3> starts = {target_from_source};
   if (const auto so3 = SolveSo3(source, target, consistent, bound)) {
     starts.push_back(*so3);
   }
-  // Of a start that came to nothing, unless another did not.
+  // Records why a candidate was rejected, unless another one was accepted.
   const auto refuse = [&](const char* why) {
     if (!summary.is_polished) summary.message = why;
   };
@@ -129,7 +131,7 @@ PolishSummary Polish(const PointsRef& source,
   for (const Rigid3& start : starts) {
     const auto refined = Refine(source, target, start, bound);
     if (!refined) {
-      refuse("the matches do not hold roll and pitch");
+      refuse("the inliers do not constrain roll and pitch");
       continue;
     }
     const double cost = ConsensusCost(source, target, *refined, bound);
@@ -138,11 +140,11 @@ PolishSummary Polish(const PointsRef& source,
         AngleBetween(refined->rotation, target_from_source.rotation);
     const double rotation_std = RotationStd(source, target, *refined, bound);
     if (tilt > options.max_tilt) {
-      refuse("the better pose is turned too far from the yaw");
+      refuse("the better pose is rotated too far from the yaw-only pose");
       continue;
     }
     if (!(rotation_std <= options.max_rotation_std)) {
-      refuse("the matches do not hold roll and pitch");
+      refuse("the inliers do not constrain roll and pitch");
       continue;
     }
     least = cost;

@@ -1,21 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// From the heading to the full pose: roll and pitch of real scans differ by a
-// degree or two, which a yaw-only answer keeps as its error.
+// From a yaw-only pose to the full pose. Roll and pitch of real scans differ by
+// a degree or two, which are errors of a yaw-only pose.
 //
-// Candidates are refined in SE(3) on the matches that agree with them,
+// Candidates are refined in SE(3) on their inliers,
 //
 //   min_{R, t}  sum_{i in I} |q_i - R p_i - t|^2,
 //   I = { i : |q_i - R p_i - t| <= b },                                    (1)
 //
-// alternating I and the closed form, with b narrowing to the noise bound. One
-// starts from the yaw-only answer; a second from SO(3) by graduated
-// non-convexity on the consistent set, which reaches tilts that the first
-// can't. The one with the least truncated cost (robust/estimators/consensus.h)
-// is kept if it is better than the yaw-only answer and the matches hold it:
-// with H the curvature of (1) over rotations and s the residuals' standard
-// deviation, no axis may be less certain than max_rotation_std,  s /
-// sqrt(smallest eigenvalue of H / 2). Otherwise the yaw-only answer stands.
+// by alternating I and the closed form, while b shrinks to the noise bound, a
+// radius. The first candidate starts from the yaw-only pose. The second starts
+// from a rotation in SO(3) by graduated non-convexity on the consistent set; it
+// reaches tilts that the first cannot. The candidate with the lowest truncated
+// cost (robust/estimators/consensus.h) is accepted only if its cost is lower
+// than that of the yaw-only pose and the inliers constrain its rotation: the
+// standard deviation about the least certain axis, s / sqrt(smallest eigenvalue
+// of H / 2), must not exceed max_rotation_std. Here H is the curvature of (1)
+// over rotations and s the standard deviation of the residuals. Otherwise the
+// yaw-only pose is kept.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_POLISH_H_
 #define QUATRO_ROBUST_ESTIMATORS_POLISH_H_
@@ -29,12 +31,13 @@
 
 namespace quatro {
 
-// When a pose in SE(3) is believed.
+// When a pose in SE(3) is accepted.
 struct PolishOptions {
-  double noise_bound = 0.3;  // b [m]
+  double noise_bound = 0.3;  // b, a radius [m].
 
-  // The polished pose is refused if it is turned farther from the yaw-only one
-  // [rad], or less certain than this [rad].
+  // The polished pose is rejected if its rotation differs from the yaw-only one
+  // by more than max_tilt [rad], or if the standard deviation about its least
+  // certain axis exceeds max_rotation_std [rad].
   double max_tilt = 0.3;
   double max_rotation_std = 0.01;
 
@@ -42,16 +45,19 @@ struct PolishOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The pose, polished or as it was given.
+// The polished pose, or the input pose if no better one was accepted.
 struct PolishSummary {
-  Rigid3 target_from_source;  // The pose given if nothing better is held.
+  Rigid3 target_from_source;
   bool is_polished = false;
-  double rotation_std =
-      0.0;              // Of the polished pose's least certain axis [rad].
-  std::string message;  // Why it was not, or "polished".
+
+  // About the least certain axis of the polished pose [rad].
+  double rotation_std = 0.0;
+
+  std::string message;  // Why it was not polished, or "polished".
 };
 
-// `consistent` are the columns that pruning kept.
+// Column i of `source` is matched with column i of `target` [m]. `consistent`
+// are the columns that pruning kept.
 PolishSummary Polish(const PointsRef& source,
                      const PointsRef& target,
                      const std::vector<Eigen::Index>& consistent,

@@ -38,7 +38,7 @@ std::vector<Eigen::Index> FindConsistent(const DistinctMatches& matches,
     vertices = FindMaximumClique(graph, exact).clique;
   } else if (options.method == Pruning::kMaxCore) {
     vertices = FindMaxCore(graph);
-    // Without edges every vertex is in it, and no two hold together.
+    // Without edges every vertex is in the core, but no two are consistent.
     if (!vertices.empty() && graph.Degree(vertices.front()) == 0) {
       vertices.resize(1);
     }

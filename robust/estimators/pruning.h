@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// From all matches to those that hold together: the consistency graph and a
-// large set of mutually consistent vertices in it.
+// Pruning: the consistency graph of the matches, and a large set of mutually
+// consistent matches in it.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_PRUNING_H_
 #define QUATRO_ROBUST_ESTIMATORS_PRUNING_H_
@@ -15,25 +15,26 @@
 
 namespace quatro {
 
-// How the consistent matches are found.
+// How the consistent set is found.
 enum class Pruning {
-  kCliqueHeuristic,  // The paper's MCIS-heuristic.
-  kExactClique,      // Branch and bound, until a time limit.
+  kCliqueHeuristic,  // The paper's MCIS heuristic.
+  kExactClique,      // Branch and bound with a time limit.
   kMaxCore,
   kNone,
 };
 
-// The way, the test and the time for it.
+// The method, the consistency test and the time limit.
 struct PruningOptions {
   Pruning method = Pruning::kCliqueHeuristic;
   ConsistencyOptions consistency;
-  double time_limit_seconds = 1.0;  // For kExactClique.
+  double time_limit_seconds = 1.0;  // For kExactClique [s].
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// Columns of `matches`, in ascending order. Appends the stages' times.
+// Returns columns of `matches` in ascending order, and appends the times of the
+// stages.
 std::vector<Eigen::Index> FindConsistent(const DistinctMatches& matches,
                                          const PruningOptions& options,
                                          int num_threads,

@@ -55,8 +55,8 @@ GncSummary<YawEstimate> SolveYaw(const Subproblem& subproblem,
   return SolveGnc<TruncatedLeastSquares>(subproblem, options.gnc);
 }
 
-// Yaw by the way asked for, with the certificate. Nullopt if the TIMs hold
-// none.
+// Estimates the yaw by the chosen solver and computes the certificate. Returns
+// nullopt if the TIMs do not constrain the yaw.
 std::optional<double> FindYaw(const QuasiSo3& rotation,
                               const QuatroOptions& options,
                               QuatroSummary* summary) {
@@ -101,7 +101,8 @@ std::optional<double> FindYaw(const QuasiSo3& rotation,
     const auto is_inlier =
         (rotation.SquaredResiduals(estimate).array() <= 1.0).eval();
     summary->num_rotation_inliers = is_inlier.count();
-    // What is an inlier under any yaw holds none: a pole, noise and all.
+    // A TIM that is an inlier under any yaw does not constrain the yaw, for
+    // example one between points of a pole.
     const auto is_short = (rotation.source.topRows<2>().colwise().norm() +
                            rotation.target.topRows<2>().colwise().norm())
                               .transpose()
@@ -111,8 +112,8 @@ std::optional<double> FindYaw(const QuasiSo3& rotation,
   return yaw;
 }
 
-// Of each difference: that of GNC, or for the exact yaw whether it is an
-// inlier. Empty without an answer.
+// The weight of each TIM: that of GNC, or for the exact yaw 1 for inliers and 0
+// for outliers. Empty without a yaw.
 Eigen::VectorXd TimWeights(const QuasiSo3& rotation,
                            const QuatroSummary& summary,
                            const std::optional<double>& yaw) {
@@ -125,10 +126,11 @@ Eigen::VectorXd TimWeights(const QuasiSo3& rotation,
 
 std::string NoteMove(const Rigid3& before, const Rigid3& after) {
   const double shift = (after.translation - before.translation).norm();
-  if (shift == 0.0) return "no other translation explains more";
+  if (shift == 0.0) return "no other translation fits the matches better";
   std::ostringstream text;
   text.precision(2);
-  text << "moved by " << shift << " m, which explains more of all matches";
+  text << "moved by " << shift
+       << " m to a translation that fits all matches better";
   return text.str();
 }
 
@@ -182,8 +184,9 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   if (pairs.empty()) {
     summary.termination = PoseTermination::kInsufficient;
     std::ostringstream message;
-    message << "a heading needs two consistent matches, of "
-            << summary.num_matches << " there is " << summary.num_consistent;
+    message << "a heading needs two consistent matches; the largest consistent "
+               "set of "
+            << summary.num_matches << " matches has " << summary.num_consistent;
     summary.message = message.str();
     return summary;
   }
@@ -206,8 +209,9 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   if (!yaw) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
-        "the consistent matches hold no heading: they are at one place, above "
-        "one another, or agree in space but in no turn about the vertical";
+        "the consistent matches do not constrain the heading: they are at one "
+        "place, on a vertical line, or not consistent under any rotation about "
+        "the vertical";
     return summary;
   }
   summary.yaw = *yaw;
@@ -260,8 +264,7 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   if (summary.certificate && summary.is_yaw_exact &&
       options.yaw_solver == YawSolver::kGnc) {
     summary.message =
-        "solved; graduated non-convexity missed the optimum, "
-        "the exact yaw is used";
+        "solved; GNC missed the optimum, so the exact yaw is used";
   }
   return summary;
 }

@@ -1,27 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Quatro: the motion of a vehicle on the ground from matched points, most of
-// them wrong,
+// them outliers,
 //
 //   q_i = R_z(yaw) p_i + t + noise,                                        (1)
 //
-// in four stages, each with an answer of its own:
+// in four stages:
 //
 //   matches -> largest consistent set (robust/graph/max_clique.h)
 //           -> differences of points (robust/estimators/tims.h)
 //           -> yaw by graduated non-convexity (robust/gnc/gnc.h)
 //           -> translation axis by axis (solvers/closed_form/translation.h)
 //
-// and, as options, three that the paper does not have: the exact yaw beside the
-// graduated one (solvers/closed_form/exact_yaw.h), the translation once more
-// over all matches (robust/estimators/recovery.h), and the pose in SE(3) on the
-// inliers (robust/estimators/polish.h).
+// and three optional stages that the paper does not have: the exact yaw in
+// addition to the GNC yaw (solvers/closed_form/exact_yaw.h), the translation
+// re-estimated from all matches (robust/estimators/recovery.h), and the pose
+// refined in SE(3) on the inliers (robust/estimators/polish.h).
 //
-// One difference, hence two consistent matches, is enough for a yaw. Roll and
-// pitch are zero unless the polish finds them.
+// One difference, and therefore two consistent matches, determines a yaw. Roll
+// and pitch are zero unless the polish estimates them.
 //
-// The answer depends on the set of matches: neither on their order nor on how
-// often one is repeated, bit for bit.
+// The result depends on the set of matches but not on their order or
+// repetition, bit for bit.
 //
 // Source: Lim et al., "A Single Correspondence Is Enough: Robust Global
 // Registration to Avoid Degeneracy in Urban Environments", ICRA 2022.
@@ -45,27 +45,30 @@
 
 namespace quatro {
 
-// Which yaw is taken.
+// How the yaw is estimated.
 enum class YawSolver {
-  kGnc,    // Graduated non-convexity, the paper's.
+  kGnc,    // Graduated non-convexity, as in the paper.
   kExact,  // The global optimum of the truncated problem.
 };
 
-// Every choice of the four stages; the defaults are those of preset kitti.
+// Options of all stages; the defaults are those of the preset kitti.
 struct QuatroOptions {
-  // How far a right match may be off [m].
+  // Largest error of an inlier on each axis of the target frame (half the edge
+  // of a box) [m]. The polish uses it as a radius.
   double noise_bound = 0.3;
 
-  // A difference of two matches has the noise of both; its bound is this times
-  // noise_bound. 1 in the paper.
+  // The bound of a TIM, a radius in the plane, is tim_bound_factor *
+  // noise_bound. The default of 2 covers the noise of both matches; the paper
+  // uses 1.
   double tim_bound_factor = 2.0;
 
-  // Its bound is 2 * noise_bound.
+  // Two matches are consistent if their distances differ by at most 2 *
+  // noise_bound.
   ConsistencyTest consistency_test = ConsistencyTest::kLength;
-  double max_tilt = 0.035;  // [rad], for ConsistencyTest::kPlanarAndHeight.
+  double max_tilt = 0.035;  // For ConsistencyTest::kPlanarAndHeight [rad].
 
   Pruning pruning = Pruning::kCliqueHeuristic;
-  double clique_time_limit_seconds = 1.0;  // For Pruning::kExactClique.
+  double clique_time_limit_seconds = 1.0;  // For Pruning::kExactClique [s].
 
   TimLayout tim_layout = TimLayout::kRing;
   Eigen::Index num_random_tims = 5000;  // For TimLayout::kRandom.
@@ -74,18 +77,24 @@ struct QuatroOptions {
   SurrogateType surrogate = SurrogateType::kTruncatedLeastSquares;
   GncOptions gnc;
 
-  // Take the exact yaw where the graduated one costs more than the optimum by
-  // this; the certificate tells in any case.
+  // Use the exact yaw if the cost of the GNC yaw exceeds the optimum by more
+  // than certificate_tolerance. The certificate reports both costs in any case.
   bool replace_missed_optimum = true;
   double certificate_tolerance = 1e-6;
 
+  // Re-estimate the translation from all matches
+  // (robust/estimators/recovery.h).
   bool recover_translation = true;
 
+  // Refine the pose in SE(3) on its inliers (robust/estimators/polish.h). The
+  // refined pose is rejected if its rotation differs from the yaw-only one by
+  // more than polish_max_tilt, or if the standard deviation about its least
+  // certain axis exceeds polish_max_rotation_std.
   bool polish = true;
   double polish_max_tilt = 0.3;           // [rad]
   double polish_max_rotation_std = 0.01;  // [rad]
 
-  // Solve every weighted subproblem by Ceres too and report the largest
+  // Also solve every weighted subproblem by Ceres and report the largest
   // difference. Slow.
   bool crosscheck = false;
 
@@ -96,13 +105,13 @@ struct QuatroOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The pose, and the yaw it came from.
+// The pose, and the yaw from which it was computed.
 struct QuatroSummary : PoseSummary {
-  // Of the yaw; not run for YawSolver::kExact.
+  // GNC for the yaw; not run for YawSolver::kExact.
   GncSummary<YawEstimate> gnc;
 
   double yaw = 0.0;           // Before the polish [rad].
-  bool is_yaw_exact = false;  // Taken from the sweep, not from gnc.
+  bool is_yaw_exact = false;  // The yaw is the exact one, not that of gnc.
 };
 
 // Column i of `source` is matched with column i of `target` [m].

@@ -24,12 +24,13 @@
 namespace quatro {
 namespace {
 
-// Samples between two looks at the best pose double from the first to the last.
-// They change the time, never the answer.
+// The number of samples between two updates of the best pose doubles from the
+// first to the second value. It changes the time, never the result.
 constexpr std::int64_t kFirstBatch = 64;
 constexpr std::int64_t kLargestBatch = 4096;
 
-// Bounds of a refit, in noise bounds, and how often the last is repeated.
+// Bounds of a refit, in units of the noise bound, and the largest number of
+// refits with the noise bound itself.
 constexpr double kShrinkingBounds[] = {3.0, 2.0, 1.5};
 constexpr int kMaxRefits = 10;
 
@@ -47,8 +48,8 @@ struct Problem {
   }
 };
 
-// Of copies of one match with different normals, the least in order of
-// coordinates, whichever came first.
+// The normals of the distinct matches. If copies of one match have different
+// normals, the lexicographically smallest are used, whatever the input order.
 MatchedNormals DistinctNormals(const DistinctMatches& matches,
                                const MatchedNormals& normals) {
   const auto is_less = [&](Eigen::Index i, Eigen::Index j) {
@@ -83,7 +84,7 @@ struct Fit {
   double least_turn = 0.0;  // robust/estimators/rotation_observability.h [m^2]
 };
 
-// Least squares over what the sample estimates.
+// Least squares over the degrees of freedom that the sample estimates.
 std::optional<Fit> FitTo(const Problem& problem,
                          const std::vector<Eigen::Index>& inliers,
                          MinimalSample sample) {
@@ -111,8 +112,8 @@ struct Best {
   double cost = std::numeric_limits<double>::infinity();
 };
 
-// Refits with shrinking bounds, or with the last bound alone, and takes each
-// pose that costs less.
+// Refits with shrinking bounds, or only with the last bound, and keeps each
+// pose with a lower cost.
 void Refit(const Problem& problem,
            const MatchScorer& scorer,
            MinimalSample sample,
@@ -140,7 +141,7 @@ void Refit(const Problem& problem,
   }
 }
 
-// The search. Nothing if no sample gave a pose.
+// Runs the search. Returns nullopt if no sample gave a pose.
 std::optional<Best> Search(const Problem& problem,
                            const MatchScorer& scorer,
                            const RansacOptions& options,
@@ -163,7 +164,8 @@ std::optional<Best> Search(const Problem& problem,
     if (begin > 0) batch_size = std::min(2 * batch_size, kLargestBatch);
     batch.assign(static_cast<std::size_t>(std::min(batch_size, last - begin)),
                  {});
-    // What costs more than the best before the batch can't win in it.
+    // A pose that costs more than the best one before the batch cannot become
+    // the best.
     const double limit = best.cost;
     ParallelFor(options.num_threads,
                 static_cast<Eigen::Index>(batch.size()),
@@ -215,7 +217,7 @@ std::optional<Best> Search(const Problem& problem,
   return best;
 }
 
-// A single match is held by its normals.
+// Whether the inliers constrain the pose. A single match with normals does.
 bool AreHeld(const Problem& problem,
              const std::vector<Eigen::Index>& inliers,
              const MinimalPoseOptions& minimal) {
@@ -308,15 +310,15 @@ RansacSummary SolveRansac(const PointsRef& source,
   summary.consistent = InputColumns(problem.matches, inliers);
   summary.stage_times.push_back({"ransac", stopwatch.Lap()});
   const bool are_too_few = summary.num_consistent < num_needed;
-  // Of matches none of whose samples holds a pose.
+  // True if no sample of the matches determines a pose.
   const bool are_all_alike =
       are_too_few && summary.num_matches >= num_needed &&
       !AreHeld(problem, AllColumns(scorer), options.minimal);
   if (are_too_few && !are_all_alike) {
     std::ostringstream message;
-    message << "needs " << num_needed << " matches that agree on a pose, of "
-            << summary.num_matches << " none such were found in "
-            << summary.num_iterations << " samples";
+    message << "a pose needs at least " << num_needed
+            << " inliers; no such pose was found in " << summary.num_iterations
+            << " samples of " << summary.num_matches << " matches";
     summary.message = message.str();
     return summary;
   }
@@ -324,8 +326,9 @@ RansacSummary SolveRansac(const PointsRef& source,
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
         sample == MinimalSample::kThreePoints
-            ? "the matches that agree hold no rotation: they are on one line"
-            : "the matches that agree hold no heading: they are on a vertical";
+            ? "the inliers do not constrain the rotation: they are on one line"
+            : "the inliers do not constrain the heading: they are on a "
+              "vertical line";
     return summary;
   }
   summary.num_translation_inliers = summary.num_consistent;

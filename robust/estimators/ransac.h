@@ -1,26 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// RANSAC on matched points: of the poses that minimal samples give
-// (robust/estimators/minimal_pose.h), the one that explains the matches best,
+// RANSAC on matched points: the pose of the lowest cost among the poses of
+// minimal samples (robust/estimators/minimal_pose.h),
 //
 //   R, t = argmin  sum_i min( |q_i - R p_i - t|^2 / b^2, 1 ),              (1)
 //
-// then least squares on its inliers, |q_i - R p_i - t| <= b, until these stay
-// the same. (1) is the cost of MSAC, which unlike the count of inliers tells
-// poses with the same count apart.
+// followed by least squares on its inliers, |q_i - R p_i - t| <= b, until these
+// do not change. (1) is the cost of MSAC, which unlike the number of inliers
+// also ranks poses with equal numbers.
 //
-// With I of N matches inliers, a sample of m holds no outlier with chance
-// I (I - 1) .. / (N (N - 1) ..), so k samples all hold one with chance
+// If I of N matches are inliers, a sample of m matches has no outlier with
+// probability I (I - 1) .. / (N (N - 1) ..). The search stops after k samples
+// once the probability that all of them had an outlier is
 //
 //   ( 1 - prod_{j < m} (I - j) / (N - j) )^k <= 1 - confidence,            (2)
 //
-// where the search stops, I being that of the best pose so far. A sample whose
-// sides disagree counts as drawn.
+// where I is the number of inliers of the best pose so far. Samples that fail
+// their edge test count as drawn.
 //
-// Sample k is a function of seed and k over an order of the matches that is
-// their own (robust/estimators/distinct_matches.h): the answer depends on
-// neither threads, nor order, nor repetition, bit for bit. kPointAndNormal
-// takes each match once and then ends.
+// Sample k is a function of the seed and k, over the distinct matches in the
+// order of robust/estimators/distinct_matches.h. So the result does not depend
+// on the number of threads or on the order and repetition of matches, bit for
+// bit. kPointAndNormal takes each match once and then stops.
 //
 // Source: Fischler and Bolles, CACM 1981; Torr and Zisserman, "MLESAC", CVIU
 // 2000 (MSAC); Chum, Matas and Kittler, "Locally Optimized RANSAC", DAGM 2003,
@@ -39,15 +40,15 @@
 
 namespace quatro {
 
-// The sample, and when enough have been drawn.
+// The samples, and when enough have been drawn.
 struct RansacOptions {
-  MinimalPoseOptions minimal;  // And the noise bound b [m].
+  MinimalPoseOptions minimal;  // Includes the noise bound b, a radius [m].
 
-  std::int64_t max_iterations = 10'000;  // Samples drawn, at most.
-  double confidence = 0.999;  // In (2); 1: never stop before max_iterations.
+  std::int64_t max_iterations = 10'000;  // Largest number of samples.
+  double confidence = 0.999;  // See (2); 1: never stop before max_iterations.
 
-  // Refit every new best pose with the bound shrinking from 3 b to b, and keep
-  // the refit where it costs less.
+  // Refit every new best pose while the bound shrinks from 3 b to b, and keep
+  // the refit if its cost is lower.
   bool local_optimization = true;
 
   std::uint64_t seed = 0;
@@ -57,13 +58,13 @@ struct RansacOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The pose, and what it took to find it.
+// The pose, and the counts of the search.
 struct RansacSummary : PoseSummary {
   std::int64_t num_iterations = 0;    // Samples drawn.
-  std::int64_t num_hypotheses = 0;    // Of these, gave a pose to score.
-  std::int64_t num_improvements = 0;  // Times a new best was found.
-  bool is_confident = false;  // (2) held, or no sample was left to draw.
-  double cost = 0.0;          // (1) of the answer.
+  std::int64_t num_hypotheses = 0;    // Samples that gave a pose to score.
+  std::int64_t num_improvements = 0;  // New best poses.
+  bool is_confident = false;  // (2) is satisfied, or all samples were drawn.
+  double cost = 0.0;          // (1) at the pose.
 };
 
 // Column i of `source` is matched with column i of `target` [m]. kThreePoints
@@ -73,8 +74,8 @@ RansacSummary SolveRansac(const PointsRef& source,
                           const RansacOptions& options,
                           const MatchedNormals* normals = nullptr);
 
-// The least k with (2). Infinite if there are fewer inliers than a sample has,
-// or for confidence 1 unless all are inliers.
+// The smallest k that satisfies (2). Infinite if there are fewer inliers than
+// matches in a sample, or if confidence is 1 and not all matches are inliers.
 double NumIterationsFor(double confidence,
                         Eigen::Index num_inliers,
                         Eigen::Index num_matches,

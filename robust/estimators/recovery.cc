@@ -39,7 +39,7 @@ Rigid3 RecoverTranslation(const PointsRef& source,
     return EstimateConsensus(
         values, Eigen::VectorXd::Constant(values.size(), noise_bound));
   };
-  // Each axis over those that agree on the axes before it.
+  // Each axis uses the inliers of the previous axes.
   const auto near =
       [&](int axis, double value, const std::vector<Eigen::Index>& indices) {
         std::vector<Eigen::Index> kept;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kNumNeeded = 3;
 
-// The ratio of lengths that most differences agree on: each of length |a| holds
-// it to within 2 noise bounds over |a|.
+// The ratio of lengths with the largest consensus of the TIMs. The bound for a
+// TIM of length |a| is 2 noise bounds / |a|.
 std::optional<double> EstimateScale(const DistinctMatches& matches,
                                     const TeaserOptions& options) {
   const Eigen::Index n = matches.source.cols();
@@ -84,7 +84,7 @@ TeaserSummary SolveTeaser(const PointsRef& source,
     const auto scale = EstimateScale(matches, options);
     if (!scale) {
       summary.termination = PoseTermination::kInsufficient;
-      summary.message = "no two matches hold a scale";
+      summary.message = "no two matches determine the scale";
       return summary;
     }
     summary.scale = *scale;
@@ -103,8 +103,9 @@ TeaserSummary SolveTeaser(const PointsRef& source,
   if (summary.num_consistent < kNumNeeded) {
     summary.termination = PoseTermination::kInsufficient;
     std::ostringstream message;
-    message << "a rotation needs three consistent matches, of "
-            << summary.num_matches << " there are " << summary.num_consistent;
+    message << "a rotation needs three consistent matches; the largest "
+               "consistent set of "
+            << summary.num_matches << " matches has " << summary.num_consistent;
     summary.message = message.str();
     return summary;
   }
@@ -136,7 +137,8 @@ TeaserSummary SolveTeaser(const PointsRef& source,
   if (!summary.gnc.IsUsable()) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
-        "the consistent matches hold no rotation: they are on one line (" +
+        "the consistent matches do not constrain the rotation: they are on one "
+        "line (" +
         summary.gnc.message + ")";
     return summary;
   }

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// TEASER++ on matched points: the full rotation, the translation and, as an
-// option, the scale,
+// TEASER++ on matched points: the full rotation, the translation and optionally
+// the scale,
 //
 //   q_i = s R p_i + t + noise,
 //
-// decoupled: consistent set by maximum clique, scale by adaptive voting over
-// the ratios of lengths, rotation in SO(3) by graduated non-convexity on the
-// differences, translation axis by axis. Needs three matches.
+// estimated one after the other: the scale by adaptive voting on ratios of
+// lengths, the consistent set by a maximum clique, the rotation in SO(3) by
+// graduated non-convexity on the differences, and the translation axis by axis.
+// Needs three matches.
 //
 // Source: Yang, Shi and Carlone, "TEASER: Fast and Certifiable Point Cloud
-// Registration", T-RO 2021. (Scale is voted on random differences, not on all
-// pairs, so that memory does not grow with their number.)
+// Registration", T-RO 2021. (The scale is voted on random differences, not on
+// all pairs, so that memory does not grow with the number of pairs.)
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_TEASER_H_
 #define QUATRO_ROBUST_ESTIMATORS_TEASER_H_
@@ -29,9 +30,11 @@
 
 namespace quatro {
 
-// The noise, the clique, the loop, and whether there is a scale.
+// The noise bound, the consistent set, GNC, and the scale.
 struct TeaserOptions {
-  double noise_bound = 0.3;  // How far a right match may be off [m].
+  // Largest error of an inlier on each axis (half the edge of a box) [m]. TIMs
+  // use twice this bound as a radius.
+  double noise_bound = 0.3;
 
   Pruning pruning = Pruning::kExactClique;
   double clique_time_limit_seconds = 1.0;
@@ -42,7 +45,7 @@ struct TeaserOptions {
   bool estimate_scale = false;
   Eigen::Index num_scale_tims = 200'000;
 
-  // Solve every weighted subproblem by Ceres too and report the largest
+  // Also solve every weighted subproblem by Ceres and report the largest
   // difference. Slow.
   bool crosscheck = false;
 
@@ -53,7 +56,7 @@ struct TeaserOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The pose, and how its rotation was found.
+// The pose, and the GNC summary of its rotation.
 struct TeaserSummary : PoseSummary {
   GncSummary<RotationEstimate> gnc;
 };

@@ -24,8 +24,8 @@ std::string FirstLine(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-// The problem as a subproblem of robust/gnc/gnc.h. x is where the caller has
-// it, so an estimate is what it costs.
+// The problem as a subproblem of robust/gnc/gnc.h. x stays in the caller's
+// memory, so an Estimate holds only its cost and residuals.
 class CeresSubproblem {
  public:
   struct Estimate {
@@ -44,7 +44,7 @@ class CeresSubproblem {
     if (options.gnc.start == GncStart::kIdentity) initial_ = Evaluate(0.0);
   }
 
-  // Why Solve() had no answer.
+  // Why Solve() returned nullopt.
   const std::string& error() const { return error_; }
 
   Eigen::Index NumMeasurements() const { return squared_bounds_.size(); }
@@ -60,7 +60,7 @@ class CeresSubproblem {
     }
     if (!problem_.HasOthers() && !(weights.sum() > 0.0)) {
       error_ = weights.size() == 0 ? "there is no residual block to fit"
-                                   : "all weight was taken away";
+                                   : "all candidates were rejected";
       return std::nullopt;
     }
     summary_.inner.push_back(problem_.Solve(weights, options_.solver));
@@ -78,7 +78,7 @@ class CeresSubproblem {
   std::optional<Estimate> Evaluate(double cost) const {
     auto costs = problem_.Costs();
     if (!costs) {
-      error_ = "a candidate's residual could not be evaluated or not finite";
+      error_ = "a candidate's residual could not be evaluated or is not finite";
       return std::nullopt;
     }
     return Estimate{cost, costs->cwiseQuotient(squared_bounds_)};
@@ -169,10 +169,10 @@ std::string CeresGncSummary::BriefReport() const {
   std::ostringstream report;
   report << (IsUsable() ? "GNC: " : "GNC failed: ") << message << " after "
          << iterations.size() << " iterations";
-  if (!IsUsable()) return report.str() + "; parameters as before";
+  if (!IsUsable()) return report.str() + "; the parameters are unchanged";
   report << ", cost " << inner.front().initial_cost << " -> "
          << inner.back().final_cost << ", " << num_kept << " of "
-         << num_candidates << " candidates within their bound";
+         << num_candidates << " candidates are within their bounds";
   return report.str();
 }
 

@@ -25,7 +25,7 @@ bool CeresGncOptions::IsValid(std::string* error) const {
   for (const auto& [id, block_bound] : bounds) {
     if (IsPositive(block_bound)) continue;
     problem.str("");
-    problem << "bounds has " << block_bound << ", must be > 0 and finite";
+    problem << "bounds contains " << block_bound << ", must be > 0 and finite";
   }
   *error = problem.str();
   return error->empty();

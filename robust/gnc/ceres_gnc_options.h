@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The options of SolveCeresGnc() (robust/gnc/ceres_gnc.h), and the part that
-// each residual block plays.
+// The options of SolveCeresGnc() (robust/gnc/ceres_gnc.h), and the role of each
+// residual block.
 
 #ifndef QUATRO_ROBUST_GNC_CERES_GNC_OPTIONS_H_
 #define QUATRO_ROBUST_GNC_CERES_GNC_OPTIONS_H_
@@ -18,44 +18,47 @@
 
 namespace quatro {
 
-// The loss, the loop, and the bound of each block.
+// Loss, loop, inner solver, and role and bound of each block.
 struct CeresGncOptions {
   SurrogateType surrogate = SurrogateType::kTruncatedLeastSquares;
 
-  // With GncStart::kIdentity mu starts from the residuals at the values given,
-  // before the plain fit.
+  // With GncStart::kIdentity the initial mu comes from the residuals at the
+  // initial parameter values, before the plain fit.
   GncOptions gnc;
 
-  // Of each inner solve. Callbacks are called in each; a time limit is each
-  // one's own.
+  // Options of each inner solve. Callbacks are called in each, and a time limit
+  // holds for each separately.
   ceres::Solver::Options solver;
 
-  // Blocks that may be outliers. Nullopt: all that are not known.
+  // Blocks that may be outliers. Nullopt: all blocks that are in neither list
+  // below.
   std::optional<std::vector<ceres::ResidualBlockId>> candidates;
   std::vector<ceres::ResidualBlockId> known_inliers;
   std::vector<ceres::ResidualBlockId> known_outliers;
 
-  // c_i: of the block if it has one here, else `bound`, else by chi-square.
+  // The bound c_i on the norm |r_i|: the block's entry in `bounds`, else
+  // `bound`, else the chi-square bound of inlier_probability.
   std::unordered_map<ceres::ResidualBlockId, double> bounds;
   std::optional<double> bound;
   double inlier_probability = 0.99;
 
-  // That of the problem, if it was made with one: Ceres does not tell.
+  // The evaluation callback of the problem, if it has one: Ceres has no
+  // accessor for it.
   ceres::EvaluationCallback* evaluation_callback = nullptr;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// Only candidates are weighted.
+// The role of a residual block. Only candidates are weighted.
 enum class GncRole { kCandidate, kKnownInlier, kKnownOutlier };
 
-// What became of a residual block.
+// Role and final weight of a residual block.
 struct GncBlock {
   GncRole role = GncRole::kKnownInlier;
-  double weight = 1.0;            // That the answer was solved with.
-  double bound = 0.0;             // c_i, of candidates.
-  double squared_residual = 0.0;  // rho_i / c_i^2, of candidates.
+  double weight = 1.0;            // In the last inner solve.
+  double bound = 0.0;             // c_i; candidates only.
+  double squared_residual = 0.0;  // rho_i / c_i^2; candidates only.
 };
 
 }  // namespace quatro

@@ -35,15 +35,15 @@ std::string DescribeGnc(GncTermination termination,
     case GncTermination::kInvalidOptions:
       return "an option is out of range";
     case GncTermination::kUndetermined:
-      return after() + "no weight was left that holds an answer";
+      return after() + "the remaining weights did not determine the estimate";
     case GncTermination::kAllInliers:
-      return "the plain fit explains all";
+      return "all measurements are inliers of the plain fit";
     case GncTermination::kConverged:
-      return after() + "the weights were binary or the cost settled";
+      return after() + "the weights were binary or the cost converged";
     case GncTermination::kMaxNumIterations:
       break;
   }
-  return after() + "no more were allowed";
+  return after() + "max_num_iterations was reached";
 }
 
 }  // namespace quatro

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Graduated non-convexity: a robust fit as a sequence of weighted ones.
+// Graduated non-convexity (GNC): a robust fit as a sequence of weighted
+// least-squares fits.
 //
-// The loop knows neither what is estimated nor how. A Subproblem brings both:
+// The loop is independent of what is estimated and how. A Subproblem defines
+// both:
 //
 //   struct Subproblem {
 //     using Estimate = ...;
@@ -11,15 +13,15 @@
 //     std::optional<Estimate> Solve(const WeightsRef& weights) const;
 //     // ||residual_i||^2 over the squared noise bound: inlier iff <= 1.
 //     Eigen::VectorXd SquaredResiduals(const Estimate& estimate) const;
-//     // The estimate before any data; only kIdentity below asks for it.
+//     // The estimate before any data; needed only for GncStart::kIdentity.
 //     Estimate Identity() const;
-//     // Optional: what Solve() made least, if not sum_i w_i r2_i.
+//     // Optional: the cost that Solve() minimizes, if not sum_i w_i r2_i.
 //     double Cost(const Estimate& estimate) const;
 //   };
 //
-// and a Surrogate (robust/gnc/surrogate.h) brings the loss and its schedule. Of
-// ours, robust/gnc/quasi_so3.h is the smallest; robust/gnc/ceres_gnc.h makes
-// one of any ceres::Problem.
+// A Surrogate (robust/gnc/surrogate.h) defines the loss and its schedule. The
+// smallest Subproblem is robust/gnc/quasi_so3.h; robust/gnc/ceres_gnc.h makes
+// one from any ceres::Problem.
 
 #ifndef QUATRO_ROBUST_GNC_GNC_H_
 #define QUATRO_ROBUST_GNC_GNC_H_
@@ -35,13 +37,14 @@
 
 namespace quatro {
 
-// How the loop begins, moves on and ends.
+// When the loop starts, how it updates mu, and when it stops.
 struct GncOptions {
   int max_num_iterations = 100;
 
   GncStart start = GncStart::kPlainFit;
 
-  // mu changes by this factor per iteration. Larger is faster and greedier.
+  // mu changes by this factor per iteration. Larger values are faster and
+  // greedier.
   double mu_step = 1.4;
 
   // Stop once every weight is this close to 0 or 1.
@@ -56,14 +59,15 @@ struct GncOptions {
 
 // Why the loop ended.
 enum class GncTermination {
-  kInvalidOptions,    // Nothing was tried; see message.
-  kUndetermined,      // Some weights left the subproblem without an answer.
-  kAllInliers,        // No residual to start from is above the noise bound.
-  kConverged,         // Weights binary, cost settled, or loss exact.
-  kMaxNumIterations,  // Usable, but mu was still moving.
+  kInvalidOptions,    // GNC was not run; see the message.
+  kUndetermined,      // The subproblem had no solution for some weights.
+  kAllInliers,        // No initial residual exceeds the noise bound.
+  kConverged,         // Weights binary, cost converged, or loss exact.
+  kMaxNumIterations,  // Usable, but mu was still changing.
 };
 
-// "12 iterations, then the weights were binary or the cost settled" and so on.
+// The termination in words, for example "12 iterations, then the weights were
+// binary or the cost converged".
 std::string DescribeGnc(GncTermination termination, std::size_t num_iterations);
 
 // One step of the loop.
@@ -73,14 +77,14 @@ struct GncIteration {
   double sum_of_weights = 0.0;
 };
 
-// The estimate, its weights, and the way to them.
+// The estimate, its weights, and the iterations.
 template <typename Estimate>
 struct GncSummary {
   GncTermination termination = GncTermination::kUndetermined;
-  std::string message;                // Which rule or what trouble ended it.
+  std::string message;                // Which criterion or error ended it.
   std::optional<Estimate> estimate;   // Set iff IsUsable().
-  Weights weights;                    // Those the estimate was solved with.
-  Eigen::VectorXd squared_residuals;  // Of the estimate; inlier iff <= 1.
+  Weights weights;                    // The weights of the last fit.
+  Eigen::VectorXd squared_residuals;  // At the estimate; inlier iff <= 1.
   std::vector<GncIteration> iterations;
 
   bool IsUsable() const { return estimate.has_value(); }
@@ -112,13 +116,14 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
   summary.weights.setOnes(subproblem.NumMeasurements());
   summary.estimate = subproblem.Solve(summary.weights);
   if (!summary.IsUsable()) {
-    summary.message = "the measurements do not determine an estimate";
+    summary.message = "the measurements do not determine the estimate";
     return summary;
   }
   Eigen::VectorXd& r2 = summary.squared_residuals;
   r2 = subproblem.SquaredResiduals(*summary.estimate);
 
-  // Without measurements there is nothing to weigh: the plain fit stands.
+  // Without measurements there is nothing to weigh: the plain fit is the
+  // answer.
   const double max_r2 =
       r2.size() == 0 ? 0.0
       : options.start == GncStart::kPlainFit
@@ -126,12 +131,12 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
           : subproblem.SquaredResiduals(subproblem.Identity()).maxCoeff();
   if (max_r2 <= 1.0) {
     summary.termination = GncTermination::kAllInliers;
-    summary.message = "no residual to start from is above its bound";
+    summary.message = "no initial residual exceeds its bound";
     return summary;
   }
 
   summary.termination = GncTermination::kMaxNumIterations;
-  summary.message = "no more iterations were allowed";
+  summary.message = "max_num_iterations was reached";
   double mu = Surrogate::InitialMu(max_r2, options.start);
   double previous_cost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < options.max_num_iterations; ++i) {
@@ -141,7 +146,7 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
     summary.estimate = subproblem.Solve(summary.weights);
     if (!summary.IsUsable()) {
       summary.termination = GncTermination::kUndetermined;
-      summary.message = "all weight was taken away";
+      summary.message = "all measurements were rejected";
       return summary;
     }
     r2 = subproblem.SquaredResiduals(*summary.estimate);
@@ -158,7 +163,7 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
         : gap_to_binary <= options.binary_weight_tolerance
             ? "the weights were binary"
         : cost_change <= options.relative_cost_tolerance * cost
-            ? "the cost settled"
+            ? "the cost converged"
             : nullptr;
     if (stop != nullptr) {
       summary.termination = GncTermination::kConverged;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A surrogate of robust/gnc/surrogate.h as a loss of Ceres, for those who drive
-// mu themselves; SolveCeresGnc() (robust/gnc/ceres_gnc.h) does it for you,
+// A surrogate of robust/gnc/surrogate.h as a ceres::LossFunction, for callers
+// that update mu themselves (SolveCeresGnc() in robust/gnc/ceres_gnc.h does so
+// for you),
 //
 //   rho(s) = c^2 rho_mu(s / c^2),   s = |r|^2,  c the largest |r| of an inlier.
 //
-// mu is read at every evaluation from where the caller keeps it, e.g. from an
-// IterationCallback that lowers it after each step:
+// The loss reads mu through the caller's pointer at every evaluation. For
+// example, an IterationCallback can lower it after each step:
 //
 //   double mu = GemanMcClure::InitialMu(max_r2, GncStart::kIdentity);
 //   problem.AddResidualBlock(cost, new GncLoss<GemanMcClure>(c, &mu), x);
@@ -16,11 +17,11 @@
 //     return SOLVER_CONTINUE;
 //   }
 //
-// Within one ceres::Solve() this works for surrogates whose loss falls as the
-// schedule moves on, GemanMcClure and Welsch: Ceres compares the cost of a step
-// with that of the last one, seen with the last mu. TruncatedLeastSquares
-// rises, every step would look worse and be refused: it needs a Solve() for
-// each mu.
+// Within one ceres::Solve() this works only for surrogates whose loss falls
+// along the schedule, GemanMcClure and Welsch: Ceres compares the cost of a
+// step with the previous cost, which was evaluated at the previous mu. The loss
+// of TruncatedLeastSquares rises, so Ceres would reject every step; it needs
+// one Solve() for each mu.
 
 #ifndef QUATRO_ROBUST_GNC_GNC_LOSS_H_
 #define QUATRO_ROBUST_GNC_GNC_LOSS_H_
@@ -31,11 +32,12 @@
 
 namespace quatro {
 
-// A surrogate as Ceres wants a loss, at a mu that others move.
+// A surrogate as a ceres::LossFunction with an external mu.
 template <typename Surrogate>
 class GncLoss final : public ceres::LossFunction {
  public:
-  // bound > 0. `mu` must outlive this and be > 0.
+  // `bound` c > 0 is on the norm of the residual block. `mu` must outlive this
+  // object and be > 0.
   GncLoss(double bound, const double* mu) : c2_(bound * bound), mu_(mu) {}
 
   void Evaluate(double s, double* rho) const override {

@@ -12,8 +12,8 @@ namespace {
 
 using Id = ceres::ResidualBlockId;
 
-// The roles of all blocks by the lists of `options`. Nullopt, with *error set,
-// where these contradict each other or the problem.
+// The roles of all blocks from the lists of `options`. Returns nullopt and sets
+// *error if these contradict each other or the problem.
 std::optional<GncBlocks> AssignRoles(const std::vector<Id>& ids,
                                      const CeresGncOptions& options,
                                      std::string* error) {
@@ -52,7 +52,7 @@ std::optional<GncBlocks> AssignRoles(const std::vector<Id>& ids,
   return blocks;
 }
 
-// Sets c_i of the candidates. Returns false and sets *error for one without
+// Sets c_i of the candidates. Returns false and sets *error if a bound has no
 // effect.
 bool AssignBounds(const ceres::Problem& problem,
                   const CeresGncOptions& options,
@@ -61,11 +61,11 @@ bool AssignBounds(const ceres::Problem& problem,
   for (const auto& [id, bound] : options.bounds) {
     const auto block = blocks->find(id);
     if (block == blocks->end()) {
-      *error = "bounds has a block that is not in the problem";
+      *error = "bounds names a block that is not in the problem";
       return false;
     }
     if (block->second.role != GncRole::kCandidate) {
-      *error = "bounds has a block that is no candidate";
+      *error = "bounds names a block that is no candidate";
       return false;
     }
     block->second.bound = bound;

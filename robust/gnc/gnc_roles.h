@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Which residual blocks may be outliers and what their bounds are, by the lists
-// of CeresGncOptions; part of robust/gnc/ceres_gnc.h, which says what is
-// refused.
+// Roles and bounds of the residual blocks, from the lists of CeresGncOptions.
+// Part of robust/gnc/ceres_gnc.h, which lists the errors.
 
 #ifndef QUATRO_ROBUST_GNC_GNC_ROLES_H_
 #define QUATRO_ROBUST_GNC_GNC_ROLES_H_
@@ -20,8 +19,8 @@ namespace quatro {
 // The role and the bound of each residual block.
 using GncBlocks = std::unordered_map<ceres::ResidualBlockId, GncBlock>;
 
-// Of all residual blocks, candidates with their bounds. Nullopt, with *error
-// set, where the lists contradict each other or the problem.
+// The roles of all residual blocks, and the bounds of the candidates. Returns
+// nullopt and sets *error if the lists contradict each other or the problem.
 std::optional<GncBlocks> AssignGncRoles(const ceres::Problem& problem,
                                         const CeresGncOptions& options,
                                         std::string* error);

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The rotation of a vehicle on the ground as a subproblem of robust/gnc/gnc.h:
-// yaw alone, from planar residuals,
+// yaw only, from planar residuals,
 //
 //   r_k(yaw)^2 = | xy(beta_k) - R(yaw) xy(alpha_k) |^2 / noise_bound^2,
 //
-// so that the error of a match in z does no harm. Equation (6) of the paper.
+// so errors in z have no effect. noise_bound is a radius in the plane. Equation
+// (6) of the Quatro paper.
 
 #ifndef QUATRO_ROBUST_GNC_QUASI_SO3_H_
 #define QUATRO_ROBUST_GNC_QUASI_SO3_H_
@@ -19,13 +20,13 @@
 
 namespace quatro {
 
-// A yaw from differences of points, for robust/gnc/gnc.h.
+// Yaw from differences of points (TIMs).
 struct QuasiSo3 {
   using Estimate = YawEstimate;
 
   Points source;             // alpha_k [m]
   Points target;             // beta_k [m]
-  double noise_bound = 1.0;  // [m]
+  double noise_bound = 1.0;  // Radius, for differences [m].
 
   Eigen::Index NumMeasurements() const { return source.cols(); }
 

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The full rotation as a subproblem of robust/gnc/gnc.h, for when roll and
-// pitch are not known,
+// The full rotation as a subproblem of robust/gnc/gnc.h, for unknown roll and
+// pitch:
 //
 //   r_k(R)^2 = | beta_k - R alpha_k |^2 / noise_bound^2.
 //
-// Needs two differences that are not parallel, hence three matches.
+// noise_bound is a radius. The rotation needs two differences that are not
+// parallel, and therefore three matches.
 
 #ifndef QUATRO_ROBUST_GNC_SO3_H_
 #define QUATRO_ROBUST_GNC_SO3_H_
@@ -18,13 +19,13 @@
 
 namespace quatro {
 
-// A rotation from differences of points, for robust/gnc/gnc.h.
+// Rotation from differences of points (TIMs).
 struct So3 {
   using Estimate = RotationEstimate;
 
   Points source;             // alpha_k [m]
   Points target;             // beta_k [m]
-  double noise_bound = 1.0;  // [m]
+  double noise_bound = 1.0;  // Radius, for differences [m].
 
   Eigen::Index NumMeasurements() const { return source.cols(); }
 

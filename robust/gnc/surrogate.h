@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The losses GNC anneals towards, as stateless types.
+// The robust losses of GNC, as stateless types.
 //
-// Each is a family rho_mu(r2) and the outlier process Phi_mu(w) dual to it,
+// Each is a family of losses rho_mu(r2) with its dual outlier process
+// Phi_mu(w),
 //
 //   rho_mu(r2) = min_{0 <= w <= 1}  w r2 + Phi_mu(w),                      (1)
 //
-// whose minimum is at Weight(r2, mu) (Black and Rangarajan, IJCV 1996). Hence
-// Weight is the slope of Loss over r2, and WeightSlope its curvature.
+// with the minimum at w = Weight(r2, mu) (Black and Rangarajan, IJCV 1996).
+// Hence Weight is the first derivative of Loss with respect to r2, and
+// WeightSlope the second.
 //
-// Residuals arrive divided by the noise bound, so an inlier has r2 <= 1 and no
-// loss carries a threshold of its own. Equation numbers are those of Yang,
+// Residuals are divided by the noise bound before, so an inlier has r2 <= 1 and
+// no loss has a threshold of its own. Equation numbers are those of Yang,
 // Antonante, Tzoumas and Carlone, "Graduated Non-Convexity for Robust Spatial
-// Perception", RA-L 2020.
+// Perception", RA-L 2020, unless another paper is named.
 
 #ifndef QUATRO_ROBUST_GNC_SURROGATE_H_
 #define QUATRO_ROBUST_GNC_SURROGATE_H_
@@ -22,13 +24,13 @@
 
 namespace quatro {
 
-// Which residuals say how convex the first surrogate must be.
+// Which residuals set the initial mu, and so how convex the first surrogate is.
 enum class GncStart {
-  kPlainFit,  // Those of the plain fit, as in the GNC paper.
-  kIdentity,  // Those before any fit, as in the Quatro paper.
+  kPlainFit,  // The residuals of the plain fit, as in the GNC paper.
+  kIdentity,  // The residuals before any fit, as in the Quatro paper.
 };
 
-// The types below, by name.
+// Names of the types below.
 enum class SurrogateType { kTruncatedLeastSquares, kGemanMcClure, kWelsch };
 
 // Truncated least squares, min(r2, 1). Convex as mu -> 0, exact as mu -> inf.

@@ -10,7 +10,7 @@
 namespace quatro {
 namespace {
 
-// w rho(s), with w read where it is kept; rho(s) = s without a loss.
+// w rho(s), with w read through a pointer; rho(s) = s without a loss.
 class WeightedLoss final : public ceres::LossFunction {
  public:
   WeightedLoss(const double* weight, const ceres::LossFunction* loss)
@@ -38,8 +38,8 @@ ceres::Problem::Options SharedOptions(ceres::EvaluationCallback* callback) {
   return options;
 }
 
-// Ceres gives const access to what it takes by non-const pointer, and changes
-// neither.
+// Ceres returns pointers to const and takes pointers to non-const objects, but
+// does not modify them.
 template <typename T>
 T* Shared(const T* object) {
   return const_cast<T*>(object);
@@ -65,7 +65,8 @@ void CopyParameterBlock(const ceres::Problem& from,
   }
 }
 
-// Solve() takes constant blocks out of the orderings it is given.
+// A copy with its own orderings, since Solve() removes constant blocks from the
+// orderings it gets.
 ceres::Solver::Options WithOwnOrderings(ceres::Solver::Options options) {
   for (auto* ordering :
        {&options.linear_solver_ordering, &options.inner_iteration_ordering}) {

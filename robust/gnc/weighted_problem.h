@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A caller's ceres::Problem once more, with weights that can be changed,
+// A copy of a caller's ceres::Problem whose residual blocks have variable
+// weights,
 //
 //   min_x  1/2 sum_{i weighted} w_i rho_i(|r_i(x)|^2)
 //        + 1/2 sum_{k others} rho_k(|r_k(x)|^2).                            (1)
 //
-// Ceres can't exchange the loss of a block that is in a Problem. So this is a
-// second Problem over the same cost functions, losses, manifolds and parameter
-// memory, owning none of them: the caller's stays as it is by construction.
-// Parameter and residual blocks keep their order, so that with all w_i = 1 the
-// solver takes the same steps bit for bit.
+// Ceres cannot replace the loss of a block that is in a Problem. This is
+// therefore a second Problem over the same cost functions, losses, manifolds
+// and parameter memory. It owns none of them and leaves the caller's Problem
+// unchanged. Parameter and residual blocks keep their order, so with all
+// w_i = 1 the solver takes the same steps bit for bit.
 
 #ifndef QUATRO_ROBUST_GNC_WEIGHTED_PROBLEM_H_
 #define QUATRO_ROBUST_GNC_WEIGHTED_PROBLEM_H_
@@ -27,32 +28,32 @@
 
 namespace quatro {
 
-// A Ceres problem in which some blocks have weights.
+// A Ceres problem with weights on some of its blocks.
 class WeightedProblem {
  public:
-  // Blocks in `left_out` have no part in (1); parameters that no other block
-  // has stay as they are. `problem` must outlive this and not change.
+  // Blocks in `left_out` are not part of (1); parameters that only they use
+  // keep their values. `problem` must outlive this object and not change.
   WeightedProblem(const ceres::Problem& problem,
                   const std::vector<ceres::ResidualBlockId>& weighted,
                   const std::unordered_set<ceres::ResidualBlockId>& left_out,
                   ceres::EvaluationCallback* evaluation_callback);
 
-  // Blocks with a weight.
+  // The number of weighted blocks.
   Eigen::Index num_weighted() const { return weights_.size(); }
 
-  // Whether there are blocks without one.
+  // Whether (1) has blocks without a weight.
   bool HasOthers() const { return num_others_ > 0; }
 
-  // Minimises (1) from the current values and leaves the answer there, unless
-  // Ceres failed.
+  // Minimizes (1) from the current parameter values and writes the solution
+  // there, unless Ceres fails.
   ceres::Solver::Summary Solve(const WeightsRef& weights,
                                const ceres::Solver::Options& options);
 
-  // rho_i(|r_i|^2) at the current values, in the order of `weighted`. Nullopt
-  // if one can't be evaluated or is not finite.
+  // rho_i(|r_i|^2) at the current values, in the order of `weighted`. Returns
+  // nullopt if a residual cannot be evaluated or is not finite.
   std::optional<Eigen::VectorXd> Costs() const;
 
-  // Puts the values back that the problem came with.
+  // Restores the parameter values at construction.
   void RestoreInitialValues();
 
  private:

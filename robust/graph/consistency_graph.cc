@@ -17,8 +17,8 @@
 namespace quatro {
 namespace {
 
-// Blocks of so many squared are tested by one thread at a time, so that the
-// words it writes for one row are next to each other.
+// A thread tests squares of this many by this many blocks, so that the words it
+// writes for one row are contiguous.
 constexpr std::size_t kBlocksAtOnce = 8;
 
 QUATRO_SIMD_CLONES int CountBits(const Graph::Word* words, std::size_t num) {
@@ -27,7 +27,7 @@ QUATRO_SIMD_CLONES int CountBits(const Graph::Word* words, std::size_t num) {
   return count;
 }
 
-// Of each axis: where most points are, wherever a few outliers may be.
+// The median on each axis, which a few outliers do not move.
 Eigen::Vector3d Median(const PointsRef& points) {
   Eigen::Vector3d median;
   for (int axis = 0; axis < 3; ++axis) {
@@ -86,7 +86,7 @@ Graph BuildConsistencyGraph(const PointsRef& source,
     set_words(i, k, bits);
   };
 
-  // Squares of blocks on and right of the diagonal.
+  // Squares of blocks on and to the right of the diagonal.
   const std::size_t num_squares =
       (blocks.size() + kBlocksAtOnce - 1) / kBlocksAtOnce;
   std::vector<std::array<std::size_t, 2>> squares;

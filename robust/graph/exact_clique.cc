@@ -34,7 +34,7 @@ std::vector<Word> FirstBits(int num_bits) {
   return bits;
 }
 
-// Looks at the clock once in a while.
+// Reads the clock only once in a while.
 class Deadline {
  public:
   explicit Deadline(double seconds) : seconds_(seconds) {}
@@ -59,22 +59,23 @@ class Deadline {
   bool is_over_ = false;
 };
 
-// A vertex to branch on. It, those before it and all that need no branch hold
-// no clique of more than `bound`.
+// A vertex to branch on. This vertex, the branches before it and the vertices
+// that need no branch contain no clique of more than `bound` vertices.
 struct Branch {
   int vertex = 0;
   int bound = 0;
 };
 
-// Memory of ColorBranches, which keeps nothing in it.
+// Buffers of ColorBranches(), reused to avoid allocations; no state is kept in
+// them.
 struct ColoringScratch {
   std::vector<Word> uncolored;
-  std::vector<Word> open;      // What may still join the class being filled.
+  std::vector<Word> open;      // Vertices that may still join the class.
   std::vector<Word> classes;   // The free classes, row by row.
   std::vector<char> is_spent;  // Whether a class is part of a conflict.
 };
 
-// The free classes of a colouring, to make room in for one vertex more.
+// The classes of a coloring whose vertices need no branch.
 struct FreeClasses {
   const Graph& graph;
   std::size_t num_words;
@@ -83,8 +84,8 @@ struct FreeClasses {
   char* is_spent;
 };
 
-// Header, re-colouring and conflict. Returns whether v needs no branch, which
-// it says as well where time is up.
+// Re-coloring and conflict of the header. Returns whether v needs no branch;
+// also true if time is up.
 QUATRO_SIMD_INLINE bool FindRoom(int v,
                                  const FreeClasses& free,
                                  Deadline* deadline) {
@@ -137,8 +138,8 @@ QUATRO_SIMD_INLINE bool FindRoom(int v,
   return false;
 }
 
-// Equation (1): which of the candidates have to be branched on where cliques of
-// up to `num_free` vertices are of no interest, by ascending bound. Returns
+// Equation (1): the candidates that need a branch, in ascending order of
+// bounds, if cliques of up to `num_free` vertices are of no interest. Returns
 // false if time is up.
 QUATRO_SIMD_CLONES bool ColorBranches(const Graph& graph,
                                       const std::vector<Word>& candidates,
@@ -199,8 +200,8 @@ QUATRO_SIMD_CLONES bool ColorBranches(const Graph& graph,
   }
 }
 
-// Takes out candidates with fewer than `min_degree` others next to them, until
-// none is left. Returns how many stay.
+// Removes candidates with fewer than `min_degree` neighbors among the
+// candidates until none is left. Returns the number of candidates that remain.
 QUATRO_SIMD_CLONES int DropLowDegrees(const Graph& graph,
                                       int min_degree,
                                       Deadline* deadline,
@@ -232,8 +233,8 @@ QUATRO_SIMD_CLONES int DropLowDegrees(const Graph& graph,
   }
 }
 
-// The subgraph of `vertices`, in which vertices[k] is k. Without all of its
-// edges if time is up.
+// The subgraph of `vertices`, with vertices[k] renamed k. Edges are missing if
+// time is up.
 Graph Subgraph(const Graph& graph,
                const std::vector<int>& vertices,
                Deadline* deadline) {
@@ -255,7 +256,7 @@ Graph Subgraph(const Graph& graph,
         new_row[WordOf(j)] |= BitOf(j);
       }
     }
-    // Bit by bit: some ten times the work of whole words.
+    // Single bits take about ten times as long as whole words.
     if (deadline->IsOver(10 * row.size())) break;
   }
   return subgraph;
@@ -270,8 +271,8 @@ void ForEachBit(const std::vector<Word>& bits, const Visit& visit) {
   }
 }
 
-// Grows a clique from `start` by the first vertex, in the order of their
-// numbers, that is next to all so far.
+// Grows a clique from `start`, each time by the lowest-numbered vertex that is
+// adjacent to all chosen so far.
 std::vector<int> GrowClique(const Graph& graph,
                             int start,
                             std::vector<Word> candidates) {
@@ -279,7 +280,7 @@ std::vector<int> GrowClique(const Graph& graph,
   for (int next = start; next >= 0;) {
     clique.push_back(next);
     const auto row = graph.Row(next);
-    // A vertex is no neighbour of its own, so this takes it out as well.
+    // A vertex is not its own neighbor, so this also removes `next`.
     for (std::size_t w = 0; w < candidates.size(); ++w) candidates[w] &= row[w];
     next = -1;
     for (std::size_t w = 0; w < candidates.size() && next < 0; ++w) {
@@ -313,9 +314,9 @@ class Search {
     std::ostringstream message;
     message << "a clique of " << BestSize();
     if (summary.is_optimal) {
-      message << ", the largest";
+      message << ", which is the largest";
     } else {
-      message << ", the largest has at most " << bound_ << "; stopped by "
+      message << "; the largest has at most " << bound_ << "; stopped by "
               << (summary.termination == kNearClique ? "near_clique_ratio"
                                                      : "time_limit_seconds");
     }
@@ -332,7 +333,7 @@ class Search {
   int BestSize() const { return static_cast<int>(best_.size()); }
   bool IsNearBound() const { return BestSize() >= ratio_ * bound_; }
 
-  // Bounds and a first clique. Returns false if the search can be left out.
+  // Computes bounds and a first clique. Returns false if no search is needed.
   bool Prepare() {
     CoreDecomposition cores = DecomposeCores(graph_);
     if (cores.order.empty()) return false;
@@ -366,7 +367,7 @@ class Search {
             ordered_, FirstBits(end), 0, &scratch_, &deadline_, &branches)) {
       return false;
     }
-    // A larger clique has all of its vertices among these.
+    // All vertices of a larger clique are in `ordered_`.
     bound_ = std::min(bound_, std::max(BestSize(), branches.back().bound));
     if (IsNearBound()) return false;
 
@@ -385,7 +386,7 @@ class Search {
     return true;
   }
 
-  // Returns whether it came to its end.
+  // Returns whether the search was completed.
   bool SearchRoot() {
     if (order_.empty()) return true;
     ++num_branches_;
@@ -411,7 +412,8 @@ class Search {
     return true;
   }
 
-  // Cliques of `root` and candidates. Returns false if time is up.
+  // Searches cliques that contain `root` and candidates. Returns false if time
+  // is up.
   bool SearchBranch(int root, const std::vector<Word>& root_candidates) {
     Level& level = levels_.front();
     level.candidates = root_candidates;
@@ -452,8 +454,8 @@ class Search {
     return Expand(subgraph, 0);
   }
 
-  // Cliques of root_, current_ and the level's candidates. Returns false if
-  // time is up.
+  // Searches cliques that contain root_, current_ and candidates of the level.
+  // Returns false if time is up.
   bool Expand(const Graph& subgraph, std::size_t depth) {
     ++num_branches_;
     Level& level = levels_[depth];
@@ -495,19 +497,21 @@ class Search {
   const Graph& graph_;
   Deadline deadline_;
   double ratio_;
-  std::vector<int> best_;  // In the caller's numbers.
+  std::vector<int> best_;  // In the caller's numbering.
   int bound_ = 0;
   std::int64_t num_branches_ = 0;
 
-  // What the cores leave, highest core first: vertex k is order_[k].
+  // The vertices that the core numbers leave, highest core first. Vertex k is
+  // order_[k].
   Graph ordered_{0};
   std::vector<int> order_;
 
-  // The root's branch being searched: root_ and names_ in the caller's numbers.
+  // The current branch at the root; root_ and names_ are in the caller's
+  // numbering.
   int root_ = 0;
   std::vector<int> names_;
   std::vector<int> current_;
-  std::vector<Level> levels_;  // By how many of current_ are chosen.
+  std::vector<Level> levels_;  // Indexed by the size of current_.
   ColoringScratch scratch_;
 };
 

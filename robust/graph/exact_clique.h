@@ -1,37 +1,39 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The largest set of mutually consistent matches: a maximum clique, proved.
+// The largest set of mutually consistent matches: a provably maximum clique.
 //
-// Branch and bound. With C a clique, K the largest found and P the vertices
-// next to all of C, a clique larger than K can be grown from C only if
+// Branch and bound. Let C be a clique, K the largest clique found so far, and P
+// the vertices adjacent to all of C. A clique larger than K can grow from C
+// only if
 //
-//   |C| + omega(P) > |K|,   where   omega(P) <= colours(P).                (1)
+//   |C| + omega(P) > |K|,   where   omega(P) <= colors(P).                 (1)
 //
-// Colours(P) comes from classes of pairwise unconnected vertices, filled
-// greedily on rows of bits; a clique takes at most one vertex of each. What
-// fits into |K| - |C| classes needs no branch. For a vertex v that does not,
-// two repairs are tried first:
+// Here omega(P) is the size of the largest clique in P, and colors(P) the
+// number of color classes of a greedy coloring, computed on rows of bits. No
+// two vertices of a class are adjacent, so a clique has at most one vertex in
+// each. Vertices in the first |K| - |C| classes need no branch. For any other
+// vertex v, two ways to avoid the branch are tried first:
 //
-//   re-colouring   v has one neighbour w in class A, and w none in class B:
-//                  w moves to B and v takes its place in A;
-//   conflict       v has one neighbour w in class A, and v and w none in
-//                  common in class B: {v}, A and B hold no three mutual
-//                  neighbours, so v comes for free, once for each A and B.
+//   re-coloring  v has one neighbor w in class A, and w has none in class B:
+//                w moves to B and v takes its place in A;
+//   conflict     v has one neighbor w in class A, and v and w have no common
+//                neighbor in class B: {v}, A and B contain no triangle, so
+//                v needs no branch. Each A and B is used only once.
 //
-// Before that, core numbers bound cliques (robust/graph/max_clique.h): vertices
-// of a core number below |K| are dropped, the others searched highest core
-// first. Each branch at the root is searched on its own subgraph, so that the
-// rows of bits are short and in the subgraph's own order.
+// Before the search, core numbers bound cliques (robust/graph/max_clique.h):
+// vertices with a core number below |K| are dropped, the others are searched in
+// descending order of core numbers. Each branch at the root is searched on its
+// own subgraph, so that rows of bits are short and ordered for that subgraph.
 //
-// Memory: the subgraphs' bits and one row for each vertex of the clique. Time:
-// exponential at worst, hence a limit.
+// Memory: the bits of the subgraphs and one row for each vertex of the clique.
+// Time: exponential in the worst case, hence the time limit.
 //
 // Sources: Tomita et al., "A Simple and Faster Branch-and-Bound Algorithm for
-// Finding a Maximum Clique", WALCOM 2010 (re-colouring); San Segundo,
+// Finding a Maximum Clique", WALCOM 2010 (re-coloring); San Segundo,
 // Rodriguez-Losada and Jimenez, "An Exact Bit-Parallel Algorithm for the
 // Maximum Clique Problem", Comput. Oper. Res. 2011; San Segundo, Nikolaev and
 // Batsyn, "Infra-Chromatic Bound for Exact Maximum Clique Search", Comput.
-// Oper. Res. 2015 (conflicts, there with any number of neighbours in A).
+// Oper. Res. 2015 (conflicts, there with any number of neighbors in A).
 
 #ifndef QUATRO_ROBUST_GRAPH_EXACT_CLIQUE_H_
 #define QUATRO_ROBUST_GRAPH_EXACT_CLIQUE_H_
@@ -44,44 +46,47 @@
 
 namespace quatro {
 
-// When to be content with less than the largest.
+// When the search may stop before the maximum is proved.
 struct ExactCliqueOptions {
-  // Wall time; infinity for no limit. Kept to a few milliseconds, except that
-  // the core decomposition is always done: 20 to 90 ms for 5,000 vertices.
+  // Wall time [s]; infinity for no limit. The search exceeds it by at most a
+  // few milliseconds. The core decomposition is always completed; it takes 20
+  // to 90 ms for 5,000 vertices.
   double time_limit_seconds = 1.0;
 
-  // Stop once a clique is proved to be at least this share of the maximum; 1
-  // for the maximum itself. Where half of thousands of matches are right, all
-  // but a few of them are soon together and the proof of the last takes longest
-  // and changes nothing. Bounds too low for the share to spare one vertex, at
-  // 0.98 those under 50, are searched to the end.
+  // Stop once a clique is proved to have at least this share of the vertices of
+  // the maximum clique; 1 requires the maximum. If half of thousands of matches
+  // are inliers, the search finds nearly all of them early, and the proof for
+  // the last few takes most of the time without changing the pose. A ratio of
+  // 0.98 does not stop the search while the upper bound is below 50, since one
+  // vertex is then more than 2 %.
   double near_clique_ratio = 0.98;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// What is known of the clique found.
+// How much is proved about the clique.
 enum class ExactCliqueTermination {
-  kInvalidOptions,  // Nothing was tried; see message.
+  kInvalidOptions,  // The search was not run; see the message.
   kOptimal,         // There is no larger clique.
   kNearClique,      // Within near_clique_ratio of the upper bound.
-  kTimeLimit,       // The largest found in time, its rank unknown.
+  kTimeLimit,       // The largest clique found within the time limit.
 };
 
-// The same for the same graph, unless stopped by the time limit: then how far
-// the search came depends on the machine and its load. It is a clique in any
-// case, and no smaller than the greedy one of the highest cores.
+// The result depends only on the graph, unless the time limit stopped the
+// search; the progress up to then depends on the machine and its load. In any
+// case the result is a clique, and no smaller than the greedy one in descending
+// order of core numbers.
 struct ExactCliqueSummary {
   ExactCliqueTermination termination = ExactCliqueTermination::kInvalidOptions;
   std::string message = "FindMaximumClique was not called";
   std::vector<int> clique;  // In ascending order; empty iff no vertices.
   bool is_optimal = false;
-  int upper_bound = 0;  // On the size of any clique; the size iff optimal.
-  std::int64_t num_branches = 0;  // Sets of candidates that were coloured.
+  int upper_bound = 0;            // For any clique; clique.size() iff optimal.
+  std::int64_t num_branches = 0;  // Candidate sets that were colored.
 };
 
-// The largest clique of the graph, or the largest found.
+// Returns the largest clique of the graph, or the largest one found.
 ExactCliqueSummary FindMaximumClique(const Graph& graph,
                                      const ExactCliqueOptions& options);
 

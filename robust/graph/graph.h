@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// An undirected graph as one row of bits per vertex: N^2 / 8 bytes.
+// An undirected graph with one row of bits per vertex: N^2 / 8 bytes for N
+// vertices.
 
 #ifndef QUATRO_ROBUST_GRAPH_GRAPH_H_
 #define QUATRO_ROBUST_GRAPH_GRAPH_H_
@@ -13,14 +14,14 @@
 
 namespace quatro {
 
-// Without loops.
+// An undirected graph without loops.
 class Graph {
  public:
-  // Sixty-four edges.
+  // Bits for 64 possible edges.
   using Word = std::uint64_t;
   static constexpr int kWordBits = 64;
 
-  // Without edges.
+  // Makes a graph without edges.
   explicit Graph(int num_vertices)
       : num_vertices_(num_vertices),
         words_per_row_((num_vertices + kWordBits - 1) / kWordBits),
@@ -30,35 +31,35 @@ class Graph {
   // Vertices are numbered from 0.
   int num_vertices() const { return num_vertices_; }
 
-  // The edges of vertex i, a bit each.
+  // Row i: bit j is set iff i and j are adjacent.
   std::span<const Word> Row(int i) const {
     return {rows_.data() + RowBegin(i),
             static_cast<std::size_t>(words_per_row_)};
   }
 
-  // The same to be written; who writes keeps it symmetric.
+  // Row i for writing. The caller must keep the matrix symmetric.
   std::span<Word> MutableRow(int i) {
     return {rows_.data() + RowBegin(i),
             static_cast<std::size_t>(words_per_row_)};
   }
 
-  // Whether i and j are consistent.
+  // Whether i and j are adjacent.
   bool HasEdge(int i, int j) const {
     return (Row(i)[static_cast<std::size_t>(j / kWordBits)] >>
             (j % kWordBits)) &
            1u;
   }
 
-  // In both rows.
+  // Sets the bits in both rows.
   void AddEdge(int i, int j) {
     SetBit(i, j);
     SetBit(j, i);
   }
 
-  // How many edges vertex i has.
+  // The number of neighbors of vertex i.
   int Degree(int i) const;
 
-  // Calls visit(j) for each neighbour j of i, in ascending order.
+  // Calls visit(j) for each neighbor j of i, in ascending order.
   template <typename Visit>
   void ForEachNeighbor(int i, const Visit& visit) const {
     int base = 0;
@@ -68,7 +69,8 @@ class Graph {
     }
   }
 
-  // The same for those whose bit is set in `among`, as long as a row.
+  // Calls visit(j) for each neighbor j of i whose bit is set in `among`, which
+  // has the length of a row.
   template <typename Visit>
   void ForEachNeighborAmong(int i,
                             std::span<const Word> among,

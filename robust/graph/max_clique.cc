@@ -9,8 +9,8 @@
 namespace quatro {
 namespace {
 
-// The same graph with vertex order[k] renamed k. Rows are made when they are
-// asked for: once a clique is large, few others are.
+// A view of a graph with vertex order[k] renamed k. Rows are computed on
+// demand: once a large clique is found, few more are needed.
 class RenamedGraph {
  public:
   RenamedGraph(const Graph& graph, const std::vector<int>& order)
@@ -41,7 +41,7 @@ class RenamedGraph {
  private:
   const Graph& graph_;
   const std::vector<int>& order_;
-  std::vector<int> name_;  // Of each vertex.
+  std::vector<int> name_;  // New number of each vertex.
   Graph renamed_;
   std::vector<bool> is_made_;
 };
@@ -73,7 +73,7 @@ CoreDecomposition DecomposeCores(const Graph& graph) {
     }
   }
 
-  // Those that are left; of the others no degree falls any more.
+  // The remaining vertices; the degrees of the others are final.
   std::vector<Graph::Word> left(
       graph.num_vertices() > 0 ? graph.Row(0).size() : 0, ~Graph::Word{0});
   for (std::size_t k = 0; k < n; ++k) {
@@ -85,7 +85,7 @@ CoreDecomposition DecomposeCores(const Graph& graph) {
     graph.ForEachNeighborAmong(i, left, [&](int neighbor) {
       const auto j = static_cast<std::size_t>(neighbor);
       if (degree[j] <= core) return;
-      // One bucket down: change places with the first of its bucket.
+      // Move j one bucket down: swap it with the first vertex of its bucket.
       const auto d = static_cast<std::size_t>(degree[j]);
       const std::size_t first = begin[d];
       const auto other = static_cast<std::size_t>(cores.order[first]);
@@ -112,7 +112,8 @@ std::vector<int> FindCliqueGreedily(const Graph& graph) {
   std::vector<int> best;
   std::vector<int> clique;
   std::vector<Graph::Word> candidates;
-  // Vertices from here on have too small a core to extend the best clique.
+  // Vertices from `end` on have core numbers too small to extend the best
+  // clique.
   int end = n;
   for (int k = 0; k < end; ++k) {
     clique.assign(1, k);
@@ -131,7 +132,7 @@ std::vector<int> FindCliqueGreedily(const Graph& graph) {
       const int next = static_cast<int>(w) * Graph::kWordBits +
                        std::countr_zero(candidates[w]);
       clique.push_back(next);
-      // A vertex is no neighbour of its own, so this takes it out as well.
+      // A vertex is not its own neighbor, so this also removes `next`.
       const auto next_row = ordered.Row(next);
       for (std::size_t v = w; v < num_words; ++v) candidates[v] &= next_row[v];
     }

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 // Large sets of mutually consistent matches: cliques and cores of a graph.
 //
-// The core number of a vertex is the largest k such that it belongs to a
-// subgraph whose every vertex has k neighbours inside. A clique of c vertices
-// has core numbers of at least c - 1, so cores bound cliques from above, and
-// ordering by them finds large ones.
+// The core number of a vertex is the largest k such that the vertex belongs to
+// a subgraph in which every vertex has at least k neighbors. In a clique of c
+// vertices every core number is at least c - 1. So core numbers bound the
+// clique size from above, and searching vertices in their descending order
+// finds large cliques early.
 //
 // Sources: Batagelj and Zaversnik, "An O(m) Algorithm for Cores Decomposition
 // of Networks", 2003; Rossi, Gleich and Gebremedhin, "Parallel Maximum Clique
@@ -20,24 +21,24 @@
 
 namespace quatro {
 
-// How deep in the graph each vertex lies.
+// The core numbers of a graph.
 struct CoreDecomposition {
-  std::vector<int> core_number;  // Of each vertex.
-  std::vector<int> order;        // Vertices as they are peeled, lowest first.
+  std::vector<int> core_number;  // One for each vertex.
+  std::vector<int> order;        // Vertices in the order of removal.
   int max_core = 0;              // 0 for a graph without edges.
 };
 
-// Time O(vertices + edges + bits).
+// Takes O(vertices + edges + bits) time.
 CoreDecomposition DecomposeCores(const Graph& graph);
 
-// The paper's MCIS-heuristic: grows a clique greedily from every vertex, in
-// descending order of core numbers, and keeps the largest. Vertices in
-// ascending order; empty only for a graph without vertices. Equal sizes: the
-// first found.
+// The MCIS heuristic of the Quatro paper: grows a clique greedily from every
+// vertex, in descending order of core numbers, and returns the largest one, the
+// first of equal ones. Vertices are in ascending order. Empty only for a graph
+// without vertices.
 std::vector<int> FindCliqueGreedily(const Graph& graph);
 
-// All vertices of the largest core number: no clique, but it holds every clique
-// of more than max_core vertices. In ascending order.
+// All vertices of the largest core number, in ascending order. They need not
+// form a clique, but include every clique of more than max_core vertices.
 std::vector<int> FindMaxCore(const Graph& graph);
 
 }  // namespace quatro

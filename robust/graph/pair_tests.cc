@@ -20,7 +20,7 @@ QUATRO_SIMD_INLINE void MakeAbsolute(typename Lanes<kBytes>::Float* x) {
   *bits &= 0x7fffffff;
 }
 
-// Whether pairs with these offsets pass, lane by lane: all bits or none.
+// Whether pairs with these offsets pass. In each lane all bits are set or none.
 template <ConsistencyTest kTest, int kBytes>
 QUATRO_SIMD_INLINE void Test(const typename Lanes<kBytes>::Float (&a)[3],
                              const typename Lanes<kBytes>::Float (&b)[3],
@@ -37,7 +37,7 @@ QUATRO_SIMD_INLINE void Test(const typename Lanes<kBytes>::Float (&a)[3],
   const Float t = difference * difference - (a2 + b2);
   Float magnitude = t;
   MakeAbsolute<kBytes>(&magnitude);
-  // Where the powers overflow, equal lengths pass and no others.
+  // If the powers overflow, only equal lengths pass.
   constexpr float kLargest = std::numeric_limits<float>::max();
   const Float product = 4.0f * (a2 * b2);
   const Float largest = Float{} + kLargest;
@@ -53,7 +53,7 @@ QUATRO_SIMD_INLINE void Test(const typename Lanes<kBytes>::Float (&a)[3],
   }
 }
 
-// Of 32 columns from `first`: column by column for all rows at once.
+// Tests 32 columns from `first` on, one column against all rows at a time.
 template <ConsistencyTest kTest, int kBytes>
 QUATRO_SIMD_INLINE void TestHalf(const PairBlock& rows,
                                  const PairBlock& columns,
@@ -131,8 +131,8 @@ QUATRO_SIMD_AVX2 PairBits TestByAvx2(ConsistencyTest test,
   return TestBlocks<32>(test, rows, columns, sin_tilt);
 }
 
-// Changes the upper right and the lower left quarter of each square of
-// 2 kWidth rows and columns.
+// Swaps the upper right and the lower left quarter of each square of 2 kWidth
+// rows and columns.
 template <std::size_t kWidth>
 void SwapQuarters(std::uint64_t mask, PairBits* bits) {
   for (std::size_t square = 0; square < kSize; square += 2 * kWidth) {

@@ -28,7 +28,7 @@ Contacts FindContacts(const DescribedCloud& a,
                       const Rigid3& b_from_a,
                       double max_distance,
                       int num_threads) {
-  // A place that is not finite is near to nothing.
+  // A place that is not finite has no contact.
   const Points& points = a.points();
   Points places(3, points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -47,7 +47,7 @@ MutualContacts FindMutualContacts(const DescribedCloud& source,
                                   double max_distance,
                                   int num_threads) {
   MutualContacts contacts;
-  // What either does by one thread alone is done beside the other's.
+  // The two searches run in parallel, so that their serial parts overlap.
   const int num_threads_each = std::max(1, NumThreadsToUse(num_threads) / 2);
   ParallelDo(
       num_threads,

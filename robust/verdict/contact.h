@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Where two aligned scans touch: of each point p of one the nearest of the
-// other,
+// Contacts of two aligned scans: for each point p of one scan the nearest point
+// of the other,
 //
-//   argmin_q |R p + t - q|,   if that is no more than max_distance.
+//   argmin_q |R p + t - q|,   if its distance is at most max_distance.
 
 #ifndef QUATRO_ROBUST_VERDICT_CONTACT_H_
 #define QUATRO_ROBUST_VERDICT_CONTACT_H_
@@ -17,19 +17,19 @@
 
 namespace quatro {
 
-// Of each point of a the index of b's nearest, or kNoContact; none for points
-// without a normal.
+// For each point of a the index of the nearest point of b, or kNoContact.
+// Points without a normal have no contact.
 constexpr std::int32_t kNoContact = -1;
 using Contacts = std::vector<std::int32_t>;
 
-// At one pose, of a's points in b.
+// Finds the contacts of a's points in b at one pose. `max_distance` is in [m].
 Contacts FindContacts(const DescribedCloud& a,
                       const DescribedCloud& b,
                       const Rigid3& b_from_a,
                       double max_distance,
                       int num_threads);
 
-// At one pose, of either scan in the other.
+// The contacts of either scan in the other at one pose.
 struct MutualContacts {
   Contacts of_source;
   Contacts of_target;
@@ -40,8 +40,7 @@ MutualContacts FindMutualContacts(const DescribedCloud& source,
                                   double max_distance,
                                   int num_threads);
 
-// Whether the normals of two points in contact, in one frame, are within 37 deg
-// of each other or of opposites.
+// Whether two normals, in one frame, are parallel or antiparallel up to 37 deg.
 bool AreNormalsAligned(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 }  // namespace quatro

@@ -18,18 +18,18 @@
 namespace quatro {
 namespace {
 
-// Comparisons after which the chance of agreement is known well enough; it
-// takes crowded or very many matches to reach it.
+// Number of comparisons that gives the probability c with sufficient accuracy.
+// It is reached only with dense or very many matches.
 constexpr Eigen::Index kMaxComparisons = 10'000'000;
 
-// Pairs after which the chance of consistency is known well enough.
+// Number of pairs that gives the probability e with sufficient accuracy.
 constexpr int kNumRandomPairs = 20'000;
 
-// A consensus larger than this is checked for being a clique in part.
+// Only this many matches of a larger consensus are checked to be a clique.
 constexpr Eigen::Index kMaxChecked = 1000;
 
 // The share of pairings (i, j), i != j, with |q_j - p_i| <= bound on each axis.
-// Never zero: one agreement more is assumed than was seen.
+// One is added to the count, so the share is never zero.
 double MeasureChanceOfAgreement(const Points& moved,
                                 const PointsRef& target,
                                 double bound) {
@@ -53,7 +53,7 @@ double MeasureChanceOfAgreement(const Points& moved,
       num_inliers += std::abs((*it)[1] - p.y()) <= bound &&
                      std::abs((*it)[2] - p.z()) <= bound;
     }
-    // Its own match is no pairing at random.
+    // Excludes i = j, which is not a random pairing.
     num_inliers -= (target.col(num_sources) - p).cwiseAbs().maxCoeff() <= bound;
   }
   const auto num_pairings =
@@ -71,8 +71,9 @@ bool AreConsistent(const Eigen::Vector3d& a,
   return std::abs(a.norm() - b.norm()) <= 2.0 * noise_bound;
 }
 
-// The share of pairs of differences, one of the sources and one of the targets,
-// whose lengths agree. Never zero, as above. The draws are the same each time.
+// The share of random pairs of differences, one of sources and one of targets,
+// whose lengths are consistent. Never zero, as above. The draws are the same
+// each time.
 double MeasureChanceOfConsistency(const PointsRef& source,
                                   const PointsRef& target,
                                   double noise_bound) {
@@ -96,7 +97,8 @@ double Log10(Eigen::Index count) {
   return std::log10(std::max(1.0, static_cast<double>(count)));
 }
 
-// log10 of n (n - 1) / 2, which is no integer of 64 bits for all n; 0 for none.
+// log10 of n (n - 1) / 2, which can overflow 64-bit integers; 0 if there are no
+// pairs.
 double Log10Pairs(Eigen::Index count) {
   const auto n = static_cast<double>(count);
   return std::log10(std::max(1.0, n * (n - 1.0) / 2.0));
@@ -114,7 +116,7 @@ std::optional<FalseAlarms> CliqueFalseAlarms(const PointsRef& source,
   const Eigen::Index size = consistent_source.cols();
   if (size < 2 || source.cols() < 2) return std::nullopt;
   const Eigen::Index num_checked = std::min(size, kMaxChecked);
-  // A graph in single precision may tell edges otherwise by a hair.
+  // Allows for a consistency graph computed in single precision.
   const double bound = noise_bound * (1.0 + 1e-4);
   for (Eigen::Index i = 0; i < num_checked; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -195,8 +197,8 @@ FalseAlarms PoseFalseAlarms(const PointsRef& source,
 double Log10BinomialTail(Eigen::Index n, Eigen::Index k, double p) {
   if (k <= 0 || p >= 1.0) return 0.0;
   if (k > n || p <= 0.0) return -std::numeric_limits<double>::infinity();
-  // From the first term on, each is the one before it times (n-i)/(i+1)
-  // p/(1-p).
+  // After the first term, each term is the previous one times (n - i) / (i + 1)
+  // * p / (1 - p).
   const auto log_term = [&](Eigen::Index i) {
     const auto x = static_cast<double>(i);
     const auto m = static_cast<double>(n);

@@ -15,17 +15,18 @@ constexpr int kNumColumns = 512;
 constexpr int kNumRows = 128;
 constexpr double kCell = 2.0 / kNumRows;  // [rad], about.
 
-// How many cells to either side a point sees and blocks.
+// How many cells to either side a point makes known and blocks.
 struct Reach {
   int sees;
   int blocks;
 };
 
-// Of a point `angle` wide to either side, in cells of `cell` [rad]. A point
-// right at the sensor would reach over half the sky.
+// The reach of a point that extends `angle` [rad] to either side, in cells of
+// width `cell` [rad]. It is limited, since a point next to the sensor would
+// otherwise block half of all directions.
 Reach ReachOf(double angle, double cell) {
   constexpr double kMaxReach = 16.0;
-  // Rounded down: sight is not lent to what is farther off.
+  // Rounded down, so that cells farther away do not become known.
   const int sees = static_cast<int>(std::min(kMaxReach, angle / cell));
   const int blocks =
       static_cast<int>(std::min(kMaxReach, (angle + kCell) / cell));
@@ -35,7 +36,7 @@ Reach ReachOf(double angle, double cell) {
 }  // namespace
 
 std::size_t RangeImage::At(int row, int column) const {
-  // Columns go round.
+  // Columns are periodic.
   return static_cast<std::size_t>(row) * kNumColumns +
          static_cast<std::size_t>(column & (kNumColumns - 1));
 }
@@ -45,7 +46,7 @@ RangeImage::Cell RangeImage::CellOf(const Eigen::Vector3d& point) const {
   const double range = ray.norm();
   if (!(range > 0.0)) return {0, 0, 0.0};
   const double sum = std::abs(ray.x()) + std::abs(ray.y());
-  // In [0, 4) around the turn.
+  // In [0, 4) over a full turn.
   double diamond = sum > 0.0 ? ray.y() / sum : 0.0;
   if (ray.x() < 0.0) {
     diamond = 2.0 - diamond;
@@ -70,8 +71,9 @@ RangeImage::RangeImage(const PointsRef& points,
     const Cell cell = CellOf(points.col(i));
     if (cell.range == 0.0) continue;
     min_range_ = std::min(min_range_, cell.range);
-    // Angles of this cell about the sensor, and of half the diagonal. A turn is
-    // 4 diamond angles, each (|x| + |y|)^2 / (x^2 + y^2) rad.
+    // Angular width and height of this cell at the sensor, and the reach of
+    // half the diagonal. A full turn is 4 units of diamond angle; one unit is
+    // (|x| + |y|)^2 / (x^2 + y^2) rad.
     const Eigen::Vector3d ray = points.col(i) - sensor;
     const double across = std::max(ray.head<2>().norm(), 1e-3 * cell.range);
     const double sum = std::max(ray.head<2>().lpNorm<1>(), across);

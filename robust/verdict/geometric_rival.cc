@@ -20,7 +20,7 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kMinTurn = 10.0 * kDegree;
 
-// D of equation (1): a turn about the middle, then a shift.
+// D of equation (1): a rotation about the middle, then a shift.
 struct Move {
   double yaw = 0.0;                                 // [rad], in [-pi, pi].
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // [m]: x along direction.
@@ -49,7 +49,7 @@ class Comparison {
     pose_in_range_ = in_range_;
   }
 
-  // For what follows.
+  // Sets the rotation for the next calls of Count().
   void Turn(double yaw) {
     if (yaw == yaw_) return;
     yaw_ = yaw;
@@ -58,7 +58,7 @@ class Comparison {
     target_turned_ = source_grid_.Turn(target_sample_, Inverse(turned_));
   }
 
-  // o(D X), or -1 if too little is left to compare.
+  // o(D X), or -1 if too few points are left to compare.
   double Count(const Eigen::Vector3d& shift) {
     const Eigen::Vector3d shift_in_target = InTarget(shift);
     const OverlapCount of_source =
@@ -96,7 +96,7 @@ class Comparison {
   Eigen::Vector3d middle_;
   Eigen::Matrix3d axes_;
   double yaw_ = std::numeric_limits<double>::quiet_NaN();
-  Rigid3 turned_;  // The pose after the turn, before any shift.
+  Rigid3 turned_;  // The pose after the rotation, before any shift.
   TurnedSample source_turned_;
   TurnedSample target_turned_;
   std::array<int, 2> in_range_{};
@@ -108,7 +108,7 @@ bool IsRival(const Move& move, double min_shift) {
          move.shift.head<2>().norm() > min_shift;
 }
 
-// Over a grid of shifts, and a finer line of them along the direction.
+// The best shift on a grid, and on a finer line along `direction`.
 Move FindBestShift(Comparison& comparison,
                    double yaw,
                    double max_shift,
@@ -130,7 +130,7 @@ Move FindBestShift(Comparison& comparison,
   return best;
 }
 
-// Uphill by halving steps, one parameter after the other.
+// Coordinate ascent with steps that are halved each round.
 Move Refine(Comparison& comparison, Move best, double step, double min_shift) {
   double yaw_step = 2.0 * kDegree;
   for (int round = 0; round < 3; ++round) {
@@ -216,7 +216,7 @@ GeometricRival FindGeometricRival(const DescribedCloud& source,
   GeometricRival result;
   result.rival_target_from_source = target_from_source;
   result.overlap = std::max(0.0, Comparison(comparison).Overlap({}));
-  // Two of them at max_distance either side leave no gap.
+  // Two neighboring samples with max_distance on either side leave no gap.
   const double step = std::max(1.5 * max_distance, options.max_shift / 40.0);
   constexpr std::array kYaws = {0.0, M_PI, 0.5 * M_PI, -0.5 * M_PI};
   std::array<Move, kYaws.size()> best_of;

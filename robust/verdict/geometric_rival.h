@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Another pose under which the structure of two scans fits as well.
+// The geometric rival: the best other pose by the overlap of structure.
 //
-// In a corridor a pose can be slid along the walls, in a hall with equal ends
-// it can be turned by half: the scans' own geometry does not tell which is
-// right, however many matches agree. With the share met o(X) of
-// robust/verdict/structure_grid.h, the smaller of both ways,
+// In a corridor a pose can slide along the walls; in a hall with equal ends it
+// can be rotated by 180 deg. There the geometry of the scans does not show
+// which pose is correct, however many matches are inliers. Let o(X) be the
+// overlap at pose X by robust/verdict/structure_grid.h, the smaller of both
+// directions. Then
 //
 //   rival = argmax { o(D X) : D moves the middle by > min_shift
-//                             or turns by > 10 deg },                       (1)
+//                             or rotates by > 10 deg },                     (1)
 //
-// where D is a shift along the ground by up to max_shift, or a turn by 90, 180
-// or 270 deg about the middle of the structure that is met and then a shift;
-// the best are refined in yaw, along the ground and in height. o(X) - o(rival)
-// is near 0 if the pose is not distinct.
+// where D is a horizontal shift by up to max_shift, or a rotation by 90, 180 or
+// 270 deg about the middle of the overlapping structure, followed by a shift.
+// The best candidates are refined in yaw, horizontally and in height. o(X) -
+// o(rival) is near 0 if the pose is ambiguous.
 
 #ifndef QUATRO_ROBUST_VERDICT_GEOMETRIC_RIVAL_H_
 #define QUATRO_ROBUST_VERDICT_GEOMETRIC_RIVAL_H_
@@ -26,13 +27,14 @@
 
 namespace quatro {
 
-// Where another pose is looked for.
+// The search for the rival.
 struct GeometricRivalOptions {
   double min_shift = 2.0;         // [m]
-  double max_shift = 12.0;        // [m], without a turn.
-  double max_turned_shift = 8.0;  // [m], after one.
+  double max_shift = 12.0;        // Without rotation [m].
+  double max_turned_shift = 8.0;  // After a rotation [m].
 
-  // Structure points of each scan to look for the rival, and to compare it.
+  // Structure points of each scan for the search, and for the comparison of the
+  // rival with the pose.
   Eigen::Index num_search_points = 300;
   Eigen::Index num_compared_points = 2000;
 
@@ -40,21 +42,22 @@ struct GeometricRivalOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The best other pose by geometry.
+// The best other pose by overlap.
 struct GeometricRival {
-  double overlap = 0.0;        // o(X), in [0, 1].
-  double rival_overlap = 0.0;  // o(rival); 0 if no rival shares enough space.
-  Rigid3 rival_target_from_source;  // X itself if there is none.
+  double overlap = 0.0;             // o(X), in [0, 1].
+  double rival_overlap = 0.0;       // o(rival); 0 without a rival.
+  Rigid3 rival_target_from_source;  // X without a rival.
 
-  // D, in the target's frame: the turn about the middle, then the shift.
+  // D in the target's frame: the rotation about the middle, then the shift.
   double yaw = 0.0;                                 // [rad], in [-pi, pi].
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // [m]
 };
 
-// `middle` of the structure that is met and `direction`, horizontal and of
-// length 1, along which to slide first, both in the target's frame. Shares are
-// of structure in both sensors' useful ranges; a rival has at least half as
-// much of it as the pose. `max_distance` as for the overlap [m].
+// `middle` is that of the overlapping structure. `direction` is the horizontal
+// unit vector along which shifts are sampled most finely. Both are in the
+// target's frame. Overlap is computed from structure in the useful range of the
+// other sensor; a rival must have at least half as many such points as the pose
+// in both scans. `max_distance` is that of the overlap [m].
 GeometricRival FindGeometricRival(const DescribedCloud& source,
                                   const DescribedCloud& target,
                                   const Rigid3& target_from_source,

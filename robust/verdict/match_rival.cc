@@ -18,10 +18,11 @@ namespace {
 
 constexpr double kYawStep = 5.0 * M_PI / 180.0;
 
-// More than these tell nothing new about where matches lie.
+// More matches add no information about where the inliers are.
 constexpr Eigen::Index kMaxSameMatches = 500;
 
-// The columns whose value is within `bound` of the best consensus on the axis.
+// The columns whose value is within `bound` of the largest consensus on the
+// axis.
 std::vector<Eigen::Index> FindConsensus(
     const Points& offsets,
     int axis,
@@ -40,8 +41,9 @@ std::vector<Eigen::Index> FindConsensus(
   return kept;
 }
 
-// The turn by at least `min_rotation` that keeps the most of `moved` within the
-// bound of `target`. Both are about the origin.
+// The rotation by at least `min_rotation`, followed by a horizontal shift, with
+// the most inliers of `moved` and `target` in x and y. Both are centered at the
+// origin.
 Rigid3 FindTurnOfSameMatches(const Points& moved,
                              const Points& target,
                              double bound,

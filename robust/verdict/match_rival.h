@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The best other pose: is there a second consensus nearly as good elsewhere?
+// The match rival: the best other pose by the number of inliers.
 //
-// Two kinds are looked for, with D the motion that takes one pose to the other:
+// Two kinds of rivals are searched. D is the motion from the pose to the rival:
 //
-//   same matches   most of those that agree with the pose agree with D, too.
-//                  They lie on one pole or crowd in one place, where a yaw
-//                  moves little: D turns about them.
-//   other matches  a consensus among those far from agreeing: a twin of the
-//                  place, by symmetry or repetition, or the right pose where
-//                  the one given is a twin. D is any yaw and translation.
+//   same matches   most inliers of the pose are also inliers of the rival. They
+//                  lie on one pole or close together, where a yaw moves them
+//                  little: D rotates about them.
+//   other matches  a consensus among the matches far from being inliers: a twin
+//                  of the place, by symmetry or repetition, or the correct pose
+//                  if the given one is a twin. D is any yaw and translation.
 //
-// Of k matches that agree with the pose and l with the rival, the margin
+// If the pose has k inliers and the rival l, the margin
 //
 //   z = (k - l) / sqrt(k + l)                                              (1)
 //
-// is the difference of two counts in units of its standard deviation, had both
-// poses the same rate (counts are Poisson): below 2 or so, neither is preferred
-// by the matches.
+// is the difference of the counts in units of its standard deviation under the
+// assumption that both are Poisson with the same rate. Below about 2 the
+// matches prefer neither pose.
 
 #ifndef QUATRO_ROBUST_VERDICT_MATCH_RIVAL_H_
 #define QUATRO_ROBUST_VERDICT_MATCH_RIVAL_H_
@@ -32,16 +32,17 @@
 
 namespace quatro {
 
-// From where on another pose is another answer, and how hard it is looked for.
+// Which poses count as rivals, and how thoroughly they are searched.
 struct MatchRivalOptions {
-  // A rival turns by this [rad], or moves the middle of the matches that agree
-  // by this many noise bounds. Nearer poses are the same answer.
+  // A rival differs from the pose in rotation by at least min_rotation [rad],
+  // or moves the mean of the inliers by at least min_shift_factor noise bounds.
+  // Closer poses count as the same pose.
   double min_rotation = 0.1745;
   double min_shift_factor = 6.0;
 
-  // Pairs of matches and matches looked at (robust/estimators/arc_consensus.h):
-  // a rival with a share of e of them is found if the first times e^2 is 50 or
-  // more.
+  // The number of random pairs and of matches in the search
+  // (robust/estimators/arc_consensus.h). A rival with a share e of the matches
+  // is found if num_pairs * e^2 >= 50.
   Eigen::Index num_pairs = 200'000;
   Eigen::Index max_num_matches = 20'000;
 
@@ -52,7 +53,7 @@ struct MatchRivalOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The best other pose by matches.
+// The best other pose by inliers.
 struct MatchRival {
   Rigid3 target_from_source;
   Eigen::Index num_inliers = 0;  // l
@@ -60,9 +61,9 @@ struct MatchRival {
   double margin = 0.0;  // (1)
 };
 
-// The rival with which most matches agree. `noise_bound` [m], on each axis.
-// Columns are matches, each there once. Nullopt if no two matches agree with
-// any.
+// Returns the rival with the most inliers, or nullopt if none has two.
+// `noise_bound` is the bound on each axis of the target frame (half the edge of
+// a box) [m]. Columns are matches without duplicates.
 std::optional<MatchRival> FindMatchRival(const PointsRef& source,
                                          const PointsRef& target,
                                          const Rigid3& target_from_source,

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kMinStructure = 50;
 
-// a's structure in the range of b's sensor, none of it near yet.
+// a's structure within the useful range of b's sensor; `nearest` is not yet
+// set.
 std::vector<StructurePoint> FindCounted(const DescribedCloud& a,
                                         const DescribedCloud& b,
                                         const Rigid3& b_from_a) {

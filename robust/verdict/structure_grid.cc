@@ -12,11 +12,13 @@ namespace {
 constexpr int kNumSectors = 7;
 constexpr std::uint8_t kInRange = 1 << kNumSectors;
 
-// In cells: max_distance at best. Larger cells where these would be too many.
+// max_distance in cells. Cells are larger if there would be more than
+// kMaxNumCells.
 constexpr double kCellsPerDistance = 5.0 / 3.0;
 constexpr double kMaxNumCells = 1 << 23;
 
-// Of the normal's azimuth, in [0, kNumSectors); opposite normals have the same.
+// Azimuth of the normal in sectors, in [0, kNumSectors). Opposite normals have
+// the same.
 double SectorOf(const Eigen::Vector3d& normal) {
   const double turns = std::atan2(static_cast<float>(normal.y()),
                                   static_cast<float>(normal.x())) /
@@ -64,7 +66,8 @@ StructureGrid::StructureGrid(const DescribedCloud& cloud, double max_distance)
     high = high.max(point);
     structure.push_back(i);
   }
-  // The whole range in x and y, since what is there and met by nothing counts.
+  // The whole useful range in x and y, since points there count even without
+  // overlap.
   low.head<2>().setConstant(-max_range_);
   high.head<2>().setConstant(max_range_);
   low -= max_distance;
@@ -151,7 +154,7 @@ OverlapCount StructureGrid::Count(const TurnedSample& sample,
         (static_cast<std::ptrdiff_t>(at.x()) * size_.y() +
          static_cast<std::ptrdiff_t>(at.y())) *
         size_.z();
-    // Above and below the structure there is only the range to be told.
+    // Above and below the structure only the useful range matters.
     const bool has_cell = at.z() >= 0.0f && at.z() < size.z();
     const std::uint8_t cell = cells_[static_cast<std::size_t>(
         column + (has_cell ? static_cast<std::ptrdiff_t>(at.z()) : 0))];

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The structure of a cloud as a grid of bits, to measure its overlap with
-// another at thousands of poses.
+// The structure of a cloud as a grid of bits, which measures its overlap with
+// another cloud at thousands of poses.
 //
-// A cell holds one bit per sector of the normals' azimuth, a seventh of half a
-// turn each, set if a structure point with such a normal is within max_distance
-// of its middle, and one bit for being within the sensor's useful range. So it
-// is robust/verdict/overlap.h with sampled points, rounded to cells, in 1/100
-// of the time.
+// A cell has one bit for each of seven sectors of the normals' azimuth, which
+// divide 180 deg. A bit is set if a structure point with such a normal is
+// within max_distance of the cell's center. An additional bit is set within the
+// sensor's useful range. The grid approximates robust/verdict/overlap.h with
+// sampled points and rounding to cells, in 1/100 of the time.
 
 #ifndef QUATRO_ROBUST_VERDICT_STRUCTURE_GRID_H_
 #define QUATRO_ROBUST_VERDICT_STRUCTURE_GRID_H_
@@ -23,28 +23,29 @@
 
 namespace quatro {
 
-// Every n-th structure point of a cloud with its normal.
+// A sample of the structure points of a cloud, with normals.
 struct StructureSample {
   Points points;  // [m]
   Points normals;
 };
 
-// At most `num_wanted`, evenly along the cloud.
+// Samples at most `num_wanted` structure points, evenly over the order of the
+// cloud.
 StructureSample SampleStructure(const DescribedCloud& cloud,
                                 Eigen::Index num_wanted);
 
-// A sample turned, ready to be shifted.
+// A rotated sample, to be evaluated at many shifts.
 struct TurnedSample {
-  Eigen::Matrix3Xf points;            // [m], from the grid's sensor.
-  std::vector<std::uint8_t> sectors;  // That its normals agree with.
+  Eigen::Matrix3Xf points;            // In cells, from the grid's corner.
+  std::vector<std::uint8_t> sectors;  // Bits that match its normals.
 };
 
-// Points of a sample that could be met, and those that are.
+// Points of a sample in useful range, and those that overlap.
 struct OverlapCount {
   int num_in_range = 0;
   int num_overlapping = 0;
 
-  // Met of those in range; 0 if there are none.
+  // The share of points in range that overlap; 0 if none is in range.
   double Share() const {
     return num_in_range == 0
                ? 0.0
@@ -52,17 +53,18 @@ struct OverlapCount {
   }
 };
 
-// The structure of one scan, to lay the other's over it.
+// The grid of the structure of one scan.
 class StructureGrid {
  public:
-  // Of all structure within useful range. `max_distance` [m].
+  // Makes a grid of all structure within useful range. `max_distance` is in
+  // [m].
   StructureGrid(const DescribedCloud& cloud, double max_distance);
 
-  // Of the other scan, as it lies in the grid but for a shift.
+  // Transforms a sample of the other scan into the grid.
   TurnedSample Turn(const StructureSample& sample,
                     const Rigid3& grid_from_sample) const;
 
-  // Of a sample moved on by `shift` [m].
+  // Counts the points of a sample that is moved by `shift` [m].
   OverlapCount Count(const TurnedSample& sample,
                      const Eigen::Vector3d& shift) const;
 

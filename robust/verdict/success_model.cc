@@ -12,14 +12,15 @@
 namespace quatro {
 namespace {
 
-// From the output of experiments/scripts/calibrate_verdict.py.
+// Output of experiments/scripts/calibrate_verdict.py.
 constexpr double kMatchesIntercept = -5.207;
 constexpr double kMatchesWeights[] = {3.577, 3.931};
 constexpr double kCloudsIntercept = -8.557;
 constexpr double kCloudsWeights[] = {
     0.0, 0.984, 2.046, 3.001, 1.926, 2.576, 1.616};
 
-// What is assumed where free space is not known: it says little either way.
+// Typical values, assumed if free space is unknown, so that the feature has
+// little influence.
 constexpr double kUsualContradictedShare = 0.1;
 constexpr double kUsualRivalContradictedShare = 0.15;
 

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The probability that a pose is right, from what is known of it:
+// The probability that a pose is correct, from the evidence:
 //
 //   P = 1 / (1 + exp(-(w_0 + sum_j w_j x_j))),                             (1)
 //
-// one model for matches alone, one for matches and clouds. The features are
-// ramps from 0 to 1, so that no single one decides, and w_j >= 0: more evidence
-// never lowers P.
+// There is one model for matches only, and one for matches and clouds. The
+// features x_j are ramps from 0 to 1, so that no single one decides, and
+// w_j >= 0, so that more evidence never lowers P.
 //
 //   surprise            ln(1 - log10 NFA) of the pose      0 .. 3
-//   margin              over the rival of the matches      0 .. 3
-//   overlap             structure that is met              0 .. 0.3
+//   margin              over the match rival               0 .. 3
+//   overlap             overlap of the structure           0 .. 0.3
 //   free_space          1 - contradicted share             0.5 .. 0.95
 //   distinctness        overlap over that of the rival     0 .. 0.15
 //   rival_refuted       its contradicted share over ours   0 .. 0.1
@@ -19,11 +19,12 @@
 //
 // (robust/verdict/false_alarms.h, robust/verdict/match_rival.h,
 // robust/verdict/evidence.h.) The weights were fitted by
-// experiments/scripts/calibrate_verdict.py, which says how; it prints what
-// success_model.cc holds. P is calibrated for the scans there, half of which
-// share no place: where wrong answers are rarer, P is too low, and the other
-// way round. The model of matches alone was fitted without places that have a
-// twin, since matches cannot tell twins apart.
+// experiments/scripts/calibrate_verdict.py, which documents how and prints the
+// constants of success_model.cc. P is calibrated for the scans of that fit,
+// half of which show different places. P is too low for data with fewer
+// incorrect poses, and too high for data with more. The model for matches only
+// was fitted without places that have a twin, since matches cannot distinguish
+// twins.
 
 #ifndef QUATRO_ROBUST_VERDICT_SUCCESS_MODEL_H_
 #define QUATRO_ROBUST_VERDICT_SUCCESS_MODEL_H_
@@ -37,19 +38,19 @@
 
 namespace quatro {
 
-// One number of the model, by name.
+// A feature x_j of the model, by name.
 struct Feature {
   std::string name;
   double value = 0.0;
 };
 
-// Of the matches, and of the clouds if they are known.
+// The features of the matches, and of the clouds if `geometry` is set.
 std::vector<Feature> MakeFeatures(
     double log10_false_alarms,
     const std::optional<MatchRival>& rival,
     const std::optional<GeometricEvidence>& geometry);
 
-// (1), by the model that the features are of.
+// Equation (1), with the model that has these features.
 double ProbabilityOfSuccess(const std::vector<Feature>& features);
 
 }  // namespace quatro

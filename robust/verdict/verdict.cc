@@ -15,54 +15,56 @@ namespace {
 
 long Percent(double share) { return std::lround(100.0 * share); }
 
-// "2.3 m and 180 deg from the pose".
+// "2.3 m and 180 deg from this one".
 std::string DescribeStep(const Rigid3& from, const Rigid3& to) {
   std::ostringstream text;
   text.precision(2);
   text << (to.translation - from.translation).norm() << " m and "
        << std::lround(AngleBetween(from.rotation, to.rotation) * 180.0 / M_PI)
-       << " deg from the pose";
+       << " deg from this one";
   return text.str();
 }
 
 std::string DescribeMatches(const Verdict& verdict) {
   std::ostringstream text;
   text << verdict.num_inliers << " of " << verdict.num_matches
-       << " matches agree with the pose, ";
+       << " matches are inliers; chance alone ";
   const double log10_false_alarms =
       verdict.false_alarms.back().log10_false_alarms;
   if (log10_false_alarms >= -1.0) {
-    text << "as some pose found by chance would do too";
+    text << "could produce such a consensus, too";
   } else {
-    text << "as one found by chance would in 1 of 1e"
+    text << "would produce such a consensus once in 1e"
          << std::lround(std::floor(-log10_false_alarms)) << " problems";
   }
   return text.str();
 }
 
-// What speaks against the pose, if it does.
+// The reasons to doubt the pose, empty if there are none.
 std::string DescribeDoubts(const Verdict& verdict, const Rigid3& pose) {
   std::ostringstream text;
   if (verdict.rival && verdict.rival->margin < 2.0) {
-    text << "; " << verdict.rival->num_inliers << " agree with another, "
+    text << "; " << verdict.rival->num_inliers
+         << " matches are inliers of another pose, "
          << DescribeStep(pose, verdict.rival->target_from_source);
   }
   if (!verdict.geometry) return text.str();
   const GeometricEvidence& geometry = *verdict.geometry;
   if (geometry.Distinctness() < 0.1 && geometry.rival.rival_overlap > 0.0) {
-    text << "; the scans fit as well "
+    text << "; the scans overlap as well at a pose "
          << DescribeStep(pose, geometry.rival.rival_target_from_source);
   }
   const auto contradicted = geometry.free_space.ContradictedShare();
   if (contradicted.value_or(0.0) > 0.3) {
-    text << "; " << Percent(*contradicted)
-         << " % of the surfaces stand where the other scan saw through";
+    text
+        << "; " << Percent(*contradicted)
+        << " % of the surfaces lie in space that the other scan saw to be free";
   }
   return text.str();
 }
 
-// A direction of the pose that its own inliers do not hold; null if there is
-// none, or no covariance.
+// A direction of the pose that the inliers do not constrain. Returns null if
+// there is none, or if there is no covariance.
 const UnobservableDirection* FindLoose(const PoseSummary& summary) {
   if (!summary.covariance) return nullptr;
   for (const UnobservableDirection& direction :
@@ -153,23 +155,25 @@ Verdict Judge(const PointsRef& source,
   verdict.reason = DescribeMatches(verdict);
   if (const UnobservableDirection* loose = FindLoose(summary)) {
     verdict.status = Status::kDegenerate;
-    verdict.reason += "; they do not hold the " + loose->Describe();
+    verdict.reason +=
+        "; the inliers do not constrain the " + loose->Describe() + ".";
     return verdict;
   }
   if (geometry) {
     std::ostringstream text;
-    text << "; " << Percent(geometry->structure_overlap)
-         << " % of what stands in one scan is met in the other";
+    text << ". " << Percent(geometry->structure_overlap)
+         << " % of the structure overlaps";
     verdict.reason += text.str();
   }
   if (!verdict.IsRegistered()) {
     std::ostringstream text;
     text.precision(2);
-    text << DescribeDoubts(verdict, pose) << "; right with a probability of "
-         << verdict.probability << ", " << options.min_probability
-         << " is asked for";
+    text << DescribeDoubts(verdict, pose)
+         << "; the probability of a correct pose is " << verdict.probability
+         << ", below the required " << options.min_probability;
     verdict.reason += text.str();
   }
+  verdict.reason += ".";
   return verdict;
 }
 

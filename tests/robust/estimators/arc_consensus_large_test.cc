@@ -12,7 +12,7 @@
 namespace quatro {
 namespace {
 
-// The most memory this process ever had [kB], 0 where the system does not say.
+// Peak memory of this process [kB], or 0 if the system does not report it.
 long PeakMemory() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {

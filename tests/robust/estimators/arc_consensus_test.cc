@@ -76,7 +76,7 @@ KnownProblem WithOutliers(Eigen::Index num_matches,
                             seed);
 }
 
-// More pairs than are drawn, so that the draw matters.
+// More pairs than are drawn, so that the result depends on the draw.
 class ArcConsensusTest : public ::testing::Test {
  protected:
   const KnownProblem problem_ = WithOutliers(2000, 0.9, /*seed=*/1);
@@ -224,7 +224,7 @@ TEST_F(ArcConsensusTest, SeedDecidesWhatIsDrawn) {
 }
 
 TEST_F(ArcConsensusTest, NumberOfPairsIsHonoured) {
-  // All matches agree, and so does every pair that is long enough.
+  // All matches are inliers, and so is every pair that is long enough.
   const KnownProblem problem = MakeMatchedProblem(
       {.num_inliers = 300, .num_outliers = 0, .noise = 0.0}, /*seed=*/1);
   ArcConsensusOptions options;
@@ -240,7 +240,7 @@ TEST_F(ArcConsensusTest, NumberOfPairsIsHonoured) {
 }
 
 TEST_F(ArcConsensusTest, PairsThatAreTooShortAreLeftOut) {
-  // On a line, a metre apart.
+  // On a line, one meter apart.
   Points source = Points::Zero(3, 10);
   source.row(0).setLinSpaced(0.0, 9.0);
   const Rigid3 motion{RotationZ(0.5), {1.0, 2.0, 3.0}};
@@ -256,7 +256,7 @@ TEST_F(ArcConsensusTest, PairsThatAreTooShortAreLeftOut) {
 }
 
 TEST_F(ArcConsensusTest, HeightsAreHeldToTheTiltAllowed) {
-  // Pairs 10 m long that differ in height by 1.1 m: 0.6 and 0.05 of 10.
+  // Pairs 10 m long that differ in height by 1.1 m = 0.6 m + 0.05 * 10 m.
   Points source = Points::Zero(3, 2);
   source(0, 1) = 10.0;
   Points target = source;

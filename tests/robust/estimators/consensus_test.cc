@@ -15,8 +15,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Off by 0, by (0.3, 0.3, 0.3), by 0.31 in z and by 3 m in x, after a quarter
-// turn and a shift.
+// Matches with errors of 0, (0.3, 0.3, 0.3), 0.31 in z and 3 m in x, after a
+// rotation by 90 deg and a translation.
 class ConsensusTest : public ::testing::Test {
  protected:
   ConsensusTest() {
@@ -34,7 +34,7 @@ class ConsensusTest : public ::testing::Test {
 };
 
 TEST_F(ConsensusTest, CostByHand) {
-  // Of 0.6^2 = 0.36: nothing, 3 * 0.3^2, 0.31^2 and more than all.
+  // Relative to 0.6^2 = 0.36 the costs are 0, 3 * 0.3^2, 0.31^2 and truncated.
   EXPECT_NEAR(ConsensusCost(source_, target_, pose_, 0.6),
               (0.27 + 0.31 * 0.31) / 0.36 + 1.0,
               1e-12);
@@ -53,7 +53,7 @@ TEST_F(ConsensusTest, AgreeingByHand) {
 }
 
 TEST_F(ConsensusTest, WithinTheBallByHand) {
-  // Off by 0, 0.3 sqrt(3) = 0.5196, 0.31 and 3.
+  // The errors are 0, 0.3 sqrt(3) = 0.5196, 0.31 and 3.
   EXPECT_THAT(FindWithinBall(source_, target_, pose_, 0.309), ElementsAre(0));
   EXPECT_THAT(FindWithinBall(source_, target_, pose_, 0.311),
               ElementsAre(0, 2));

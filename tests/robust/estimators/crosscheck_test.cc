@@ -20,7 +20,7 @@ namespace quatro {
 namespace {
 
 constexpr double kTolerance = 1e-8;  // [rad], [m]
-constexpr double kOff = 1e-3;        // [rad], by which a mutant is wrong.
+constexpr double kOff = 1e-3;        // Error of a mutant [rad].
 
 void ExpectAgreement(const PoseSummary& summary, std::uint64_t seed) {
   ASSERT_TRUE(summary.crosscheck.has_value()) << "seed " << seed;
@@ -42,7 +42,7 @@ TEST(Crosscheck, ClosedFormsOfQuatroAreThoseOfCeres) {
         SolveQuatro(problem.source, problem.target, options);
     ASSERT_TRUE(checked.IsUsable()) << checked.message;
     ExpectAgreement(checked, seed);
-    // To look changes nothing.
+    // The cross-check does not change the result.
     options.crosscheck = false;
     const QuatroSummary plain =
         SolveQuatro(problem.source, problem.target, options);
@@ -71,7 +71,7 @@ TEST(Crosscheck, ClosedFormsOfTeaserAreThoseOfCeres) {
   }
 }
 
-// Subproblems whose closed form is wrong, by a little.
+// Subproblems whose closed form has a small error.
 struct OffQuasiSo3 : QuasiSo3 {
   std::optional<Estimate> Solve(const WeightsRef& weights) const {
     auto estimate = QuasiSo3::Solve(weights);
@@ -142,7 +142,7 @@ TEST(Crosscheck, PosesAreAddedToTheReport) {
   CrosscheckPose(Points(3, 0), Points(3, 0), &report);
   ASSERT_TRUE(report.has_value());
   EXPECT_EQ(report->num_subproblems, 0);
-  // Two matches hold a yaw and a translation, more the whole pose too.
+  // Two matches determine a yaw and a translation; more also the full pose.
   CrosscheckPose(
       problem.source.leftCols(2), problem.target.leftCols(2), &report);
   EXPECT_EQ(report->num_subproblems, 1);

@@ -79,7 +79,7 @@ TEST_F(DistinctMatchesTest, ValuesComeInTheOrderOfTheirColumns) {
   const DistinctMatches doubled =
       FindDistinctMatches(Reordered(source_, order), Reordered(target_, order));
   const std::vector<Eigen::Index> selected = {7, 3, 20};
-  // Of each the x of its source.
+  // The value of each match is the x of its source.
   std::vector<double> values;
   for (const Eigen::Index k : selected) {
     values.push_back(doubled.source(0, k));
@@ -126,14 +126,15 @@ TEST_F(DistinctMatchesTest, SwappingSourceAndTargetKeepsTheOrder) {
 }
 
 TEST_F(DistinctMatchesTest, NeighboursInOrderAreNoNeighboursInSpace) {
-  // Points along a line, in order: differences between neighbours are long.
+  // Points along a line, in order. Differences between neighbors in the new
+  // order are long.
   const Eigen::Index n = 1000;
   Points line = Points::Zero(3, n);
   line.row(0).setLinSpaced(n, 0.0, 999.0);
   const Points x = FindDistinctMatches(line, line).source;
   const double mean_step =
       (x.rightCols(n - 1) - x.leftCols(n - 1)).row(0).cwiseAbs().mean();
-  EXPECT_GT(mean_step, 250.0);  // A third of the length, were it random.
+  EXPECT_GT(mean_step, 250.0);  // A third of the length in a random order.
 }
 
 TEST_F(DistinctMatchesTest, NoMatchesAreNone) {

@@ -20,8 +20,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBound = 0.3;
 
-// Half of them inliers of the pose that is scored, up to sizes that fill no
-// block, one, and several.
+// Half of the matches are inliers of the scored pose. The sizes fill less than
+// one block, one block, and several blocks.
 TEST(MatchScorer, CostIsTheConsensusCost) {
   for (const Eigen::Index n : {0, 1, 7, 8, 9, 63, 64, 65, 500}) {
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
@@ -56,7 +56,7 @@ TEST(MatchScorer, LimitShortensNoCostBelowIt) {
   for (const double limit : {0.0, 10.0, 0.5 * cost, cost - 1e-9}) {
     EXPECT_GT(scorer.Cost(pose, limit), limit);
   }
-  // It ends early.
+  // The evaluation stops early.
   EXPECT_LT(scorer.Cost(pose, 10.0), 0.5 * cost);
 }
 

@@ -27,7 +27,7 @@ constexpr MinimalSample kSamples[] = {MinimalSample::kThreePoints,
                                       MinimalSample::kTwoPoints,
                                       MinimalSample::kPointAndNormal};
 
-// All matches right, and normals turned by the yaw.
+// All matches are inliers, and the normals are rotated by the yaw.
 struct ExactMatches {
   KnownProblem problem;
   MatchedNormals normals;
@@ -109,7 +109,8 @@ TEST(EstimateMinimalPose, RightMatchesGiveTheirPose) {
   }
 }
 
-// Each end is off by the bound at most, in any direction: (1) keeps them all.
+// Each end has an error of at most the bound, in any direction: (1) accepts
+// all.
 TEST(EstimateMinimalPose, BoundDropsNoSampleWithinIt) {
   for (const MinimalSample sample :
        {MinimalSample::kThreePoints, MinimalSample::kTwoPoints}) {
@@ -142,7 +143,7 @@ class EdgeTestTest : public ::testing::Test {
     Points target = Points::Zero(3, 3);
     source.col(1) = a;
     target.col(1) = b;
-    // The third is as far from both, in either cloud.
+    // The third point is equally far from both, in either cloud.
     const Eigen::Vector3d across = 50.0 * Eigen::Vector3d::UnitY();
     source.col(2) = 0.5 * a + across;
     target.col(2) = 0.5 * b + across;
@@ -181,7 +182,7 @@ TEST_F(EdgeTestTest, HeightsOfYawSamplesAgreeUpToTheTilt) {
   for (const EdgeTest test : {EdgeTest::kBound, EdgeTest::kRatio}) {
     options_.edge_test = test;
     options_.sample = MinimalSample::kThreePoints;
-    // As long, but turned out of the plane by 0.1 rad.
+    // Of equal length, but rotated out of the plane by 0.1 rad.
     const Eigen::Vector3d flat(20.0, 0.0, 0.0);
     const Eigen::Vector3d steep(
         20.0 * std::cos(0.1), 0.0, 20.0 * std::sin(0.1));
@@ -197,7 +198,7 @@ TEST_F(EdgeTestTest, HeightsOfYawSamplesAgreeUpToTheTilt) {
 TEST_F(EdgeTestTest, PlanarLengthsOfYawSamplesAgree) {
   options_.edge_test = EdgeTest::kBound;
   options_.sample = MinimalSample::kTwoPoints;
-  options_.max_tilt = M_PI / 2;  // Heights may be anything.
+  options_.max_tilt = M_PI / 2;  // Any height difference passes.
   const Eigen::Vector3d flat(20.0, 0.0, 0.0);
   EXPECT_FALSE(Passes(flat, {16.0, 0.0, 12.0}));
   EXPECT_TRUE(Passes(flat, {19.5, 0.0, 4.4}));

@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kNoiseBound = 0.3;  // [m]
 
-// The truth leaned over by `tilt` [rad] about an axis in the plane.
+// A problem whose true pose is tilted by `tilt` [rad] about a horizontal axis.
 KnownProblem TiltedProblem(const MatchedProblemOptions& options,
                            double tilt,
                            std::uint64_t seed) {
@@ -41,7 +41,7 @@ KnownProblem TiltedProblem(const MatchedProblemOptions& options,
   return problem;
 }
 
-// The yaw-only answer.
+// The yaw-only pose.
 Rigid3 Upright(const KnownProblem& problem) {
   return {RotationZ(Yaw(problem.true_target_from_source.rotation)),
           problem.true_target_from_source.translation};
@@ -121,7 +121,7 @@ TEST(Polish, NeverTurnsFartherThanAllowed) {
       EXPECT_GT(RotationError(problem, summary.target_from_source), kDegree);
       num_refused += !summary.is_polished;
       if (!summary.is_polished) {
-        EXPECT_THAT(summary.message, HasSubstr("turned too far"));
+        EXPECT_THAT(summary.message, HasSubstr("rotated too far"));
       }
     }
   }
@@ -138,8 +138,7 @@ TEST(Polish, NeverCostsMoreThanThePoseGiven) {
         seed);
     Rigid3 given = Upright(problem);
     given.translation += 0.2 * RandomDirection(seed);
-    // Half of them from a set that is not consistent at all, and with no other
-    // guard than the cost.
+    // Half of the problems use an inconsistent set and check only the cost.
     std::vector<Eigen::Index> consistent = problem.inliers;
     PolishOptions options;
     if (seed % 2 == 1) {
@@ -157,8 +156,8 @@ TEST(Polish, NeverCostsMoreThanThePoseGiven) {
   EXPECT_LT(num_polished, 100);
 }
 
-// Two groups of matches, of one motion each: the second leans by a quarter of a
-// radian. Columns of the second are returned.
+// Two groups of matches with one motion each; the second is tilted by a quarter
+// of a radian. Returns the columns of the second.
 std::vector<Eigen::Index> AddGroup(Eigen::Index size,
                                    std::uint64_t seed,
                                    KnownProblem* problem) {
@@ -225,7 +224,7 @@ TEST(Polish, TwoMatchesHoldNoTilt) {
                       seed);
     const PolishSummary summary = Polished(problem);
     ExpectRefused(summary, Upright(problem));
-    EXPECT_THAT(summary.message, HasSubstr("do not hold roll and pitch"));
+    EXPECT_THAT(summary.message, HasSubstr("do not constrain roll and pitch"));
   }
 }
 
@@ -243,9 +242,10 @@ TEST(Polish, MatchesOnALineHoldNoTilt) {
       for (Eigen::Index i = 0; i < 30; ++i) problem.inliers.push_back(i);
       const PolishSummary summary = Polished(problem);
       ExpectRefused(summary, Upright(problem));
-      // Nearly on a line there is a pose, anyhow about it.
+      // Points nearly on a line determine a pose, but with an arbitrary
+      // rotation about the line.
       if (off_line == 0.01) continue;
-      EXPECT_THAT(summary.message, HasSubstr("do not hold roll and pitch"))
+      EXPECT_THAT(summary.message, HasSubstr("do not constrain roll and pitch"))
           << off_line << " m, seed " << seed;
     }
   }
@@ -258,7 +258,7 @@ TEST(Polish, NoMatchesKeepThePoseGiven) {
 }
 
 TEST(Polish, IsWhatQuatroFallsBackFrom) {
-  // Two matches: the yaw-only pose, and why.
+  // With two matches the yaw-only pose is kept, and the note says why.
   const KnownProblem problem = MakeInconsistentProblem(
       {.num_inliers = 2, .num_outliers = 30}, 0.6, /*seed=*/1);
   const QuatroSummary summary =
@@ -266,7 +266,8 @@ TEST(Polish, IsWhatQuatroFallsBackFrom) {
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
   EXPECT_FALSE(summary.unpolished_target_from_source.has_value());
   EXPECT_EQ(summary.target_from_source->rotation, RotationZ(summary.yaw));
-  EXPECT_THAT(summary.Note("polish"), HasSubstr("do not hold roll and pitch"));
+  EXPECT_THAT(summary.Note("polish"),
+              HasSubstr("do not constrain roll and pitch"));
 }
 
 TEST(PolishOptions, ErrorNamesTheFieldThatIsOutOfRange) {

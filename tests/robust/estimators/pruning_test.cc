@@ -39,7 +39,7 @@ std::vector<Eigen::Index> Kept(const DistinctMatches& matches,
   return kept;
 }
 
-// Columns of the matches given.
+// Columns of the input matches.
 std::vector<Eigen::Index> KeptOf(const KnownProblem& problem, Pruning method) {
   const auto matches = FindDistinctMatches(problem.source, problem.target);
   return InputColumns(matches, Kept(matches, method));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What every answer of Quatro says of its distance from the optimum, and the
-// degeneracy of the paper.
+// The certificate of Quatro (its gap to the optimum), and the degeneracy that
+// the paper describes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -68,8 +68,8 @@ TEST(QuatroCertificate, EveryAnswerHasOneAndItsGapIsNotNegative) {
   EXPECT_GT(num_answers, 150);
 }
 
-// TIMs of which less than a hundredth are right, with no pruning before: of
-// matches it takes the square root of that, 6 or 8 %.
+// Without pruning, less than 1 % of the TIMs are inliers, because only the
+// square root of that, 6 or 8 %, of the matches are.
 class MissedOptimumTest : public ::testing::TestWithParam<TimLayout> {
  protected:
   MissedOptimumTest() {
@@ -150,12 +150,12 @@ TEST_P(MissedOptimumTest, ToleranceDecidesWhatIsMissed) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     options_.certificate_tolerance = 1e6;
     const QuatroSummary summary = Solve(ProblemOf(seed), options_);
-    // Nothing but the lack of an answer is worse than that.
+    // Only a missing answer is worse.
     EXPECT_EQ(summary.is_yaw_exact, !summary.gnc.IsUsable()) << "seed " << seed;
   }
 }
 
-// 50 matches of which few are true and no two others agree.
+// 50 matches of which few are inliers and no two outliers are consistent.
 class DegenerateTest : public ::testing::TestWithParam<int> {
  protected:
   static constexpr double kNoiseBound = 0.3;  // [m]

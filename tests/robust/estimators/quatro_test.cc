@@ -26,7 +26,7 @@ using ::testing::IsSupersetOf;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The four stages of the paper and nothing else.
+// The four stages of the paper only.
 QuatroOptions PaperStages() {
   QuatroOptions options;
   options.replace_missed_optimum = false;
@@ -39,7 +39,7 @@ QuatroSummary Solve(const KnownProblem& problem, const QuatroOptions& options) {
   return SolveQuatro(problem.source, problem.target, options);
 }
 
-// No pose, and no numbers that could be taken for one.
+// Expects no pose and no values that could be mistaken for one.
 void ExpectNoAnswer(const QuatroSummary& summary, PoseTermination termination) {
   EXPECT_EQ(summary.termination, termination) << summary.message;
   EXPECT_FALSE(summary.IsUsable());
@@ -58,14 +58,14 @@ void ExpectSameBits(const QuatroSummary& a, const QuatroSummary& b) {
   EXPECT_EQ(a.num_translation_inliers, b.num_translation_inliers);
 }
 
-// The largest error of the pose where the points are [m].
+// The largest error of the pose at the points [m].
 double PoseError(const QuatroSummary& summary, const KnownProblem& problem) {
   return LargestDisplacement(*summary.target_from_source,
                              problem.true_target_from_source,
                              problem.source);
 }
 
-// What holds for the paper's stages holds with all that was added to them.
+// The tests below run with the stages of the paper only, and with all stages.
 class QuatroTest : public ::testing::TestWithParam<bool> {
  protected:
   const QuatroOptions options_ = GetParam() ? QuatroOptions() : PaperStages();
@@ -128,7 +128,7 @@ TEST_P(QuatroTest, TranslationInliersAreWithinTheNoiseBound) {
   }
 }
 
-// Without the clique wrong matches come as far as the rotation.
+// Without pruning, outliers reach the rotation stage.
 TEST_P(QuatroTest, WeightsTellRightMatchesFromWrongOnes) {
   QuatroOptions options = options_;
   options.pruning = Pruning::kNone;
@@ -161,7 +161,7 @@ TEST_P(QuatroTest, OrderOfMatchesDoesNotMatterBitForBit) {
                     Reordered(problem_.target, order),
                     options_);
     ExpectSameBits(permuted, expected);
-    // The same matches, under their new numbers.
+    // The same matches, renumbered.
     std::vector<Eigen::Index> inliers;
     for (const Eigen::Index k : permuted.translation_inliers) {
       inliers.push_back(order[static_cast<std::size_t>(k)]);
@@ -175,13 +175,13 @@ TEST_P(QuatroTest, RepeatedMatchesCountOnceBitForBit) {
   const QuatroSummary expected = Solve(problem_, options_);
   const Eigen::Index n = problem_.source.cols();
   auto order = RandomPermutation(n, 1);
-  for (int k = 0; k < 100; ++k) order.push_back(k);  // Some of them again.
+  for (int k = 0; k < 100; ++k) order.push_back(k);  // Repeats some matches.
   const QuatroSummary repeated = SolveQuatro(Reordered(problem_.source, order),
                                              Reordered(problem_.target, order),
                                              options_);
   ExpectSameBits(repeated, expected);
   EXPECT_EQ(repeated.num_matches, n);
-  // Copies are kept together.
+  // Copies are all included or all excluded.
   std::vector<Eigen::Index> originals;
   for (const Eigen::Index k : repeated.translation_inliers) {
     originals.push_back(order[static_cast<std::size_t>(k)]);
@@ -221,7 +221,8 @@ TEST_P(QuatroTest, SwappingSourceAndTargetInvertsThePose) {
   ASSERT_TRUE(backward.IsUsable()) << backward.message;
   EXPECT_EQ(backward.consistent, forward.consistent);
   EXPECT_THAT(backward.yaw, IsAngleNear(-forward.yaw, 1e-6));
-  // Translations are the best per axis, of axes that are turned.
+  // The translation is optimal on each axis, and the axes of the two frames
+  // differ by a rotation.
   EXPECT_LE(LargestDisplacement(Inverse(*backward.target_from_source),
                                 *forward.target_from_source,
                                 problem_.source),
@@ -235,7 +236,7 @@ TEST_P(QuatroTest, CoordinatesOfTenThousandKilometresAreAsGood) {
   moved.target.colwise() += far;
   const QuatroSummary summary = Solve(moved, options_);
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
-  // Where the points are, and not at the origin far away.
+  // The error is small at the points, not necessarily at the distant origin.
   const Points error =
       summary.target_from_source->Apply(moved.source) - moved.target;
   for (const Eigen::Index i : problem_.inliers) {
@@ -260,7 +261,7 @@ TEST_P(QuatroTest, AMatchAtTheEndOfTheWorldChangesNothing) {
   }
 }
 
-// Cliques of one, two and three among matches that agree with nothing.
+// Cliques of one, two and three inliers among mutually inconsistent outliers.
 class SmallCliqueTest : public QuatroTest {
  protected:
   static constexpr double kNoise = 0.02;  // [m]
@@ -289,7 +290,8 @@ TEST_P(SmallCliqueTest, TwoOrThreeTrueMatchesAreEnoughForTheYaw) {
       ASSERT_TRUE(summary.IsUsable()) << summary.message;
       EXPECT_EQ(summary.num_tims, num_inliers == 2 ? 1 : 3);
       EXPECT_EQ(summary.consistent, problem.inliers);
-      // Both ends of the longest difference off as far as they can be.
+      // The largest yaw error: both ends of the longest difference have the
+      // largest noise.
       double longest = 0.0;
       for (const Eigen::Index i : problem.inliers) {
         longest = std::max(
@@ -314,7 +316,7 @@ TEST_P(SmallCliqueTest, OneTrueMatchIsNoAnswer) {
     const QuatroSummary summary = Solve(ProblemWith(1, seed), options_);
     ExpectNoAnswer(summary, PoseTermination::kInsufficient);
     EXPECT_EQ(summary.num_consistent, 1) << "seed " << seed;
-    EXPECT_THAT(summary.message, HasSubstr("two consistent matches, of 41"));
+    EXPECT_THAT(summary.message, HasSubstr("set of 41 matches has 1"));
   }
 }
 
@@ -333,7 +335,7 @@ TEST_P(SmallCliqueTest, OneDifferenceGivesItsExactYaw) {
   for (const double yaw : {0.0, 1e-6, 1.0, 3.1, -2.0, M_PI}) {
     const Rigid3 motion{RotationZ(yaw), {3.0, 4.0, 5.0}};
     Points target = motion.Apply(source);
-    target(2, 1) += 0.1;  // Heights have no part in it.
+    target(2, 1) += 0.1;  // Heights have no influence.
     const QuatroSummary summary = SolveQuatro(source, target, options_);
     ASSERT_TRUE(summary.IsUsable()) << summary.message;
     EXPECT_EQ(summary.num_tims, 1);
@@ -379,11 +381,11 @@ TEST_P(QuatroTest, MatchesOnAPlumbLineHoldNone) {
   const Points target = source.colwise() + Eigen::Vector3d(4.0, 5.0, 6.0);
   const QuatroSummary summary = SolveQuatro(source, target, options_);
   ExpectNoAnswer(summary, PoseTermination::kDegenerate);
-  EXPECT_THAT(summary.message, HasSubstr("no heading"));
+  EXPECT_THAT(summary.message, HasSubstr("not constrain the heading"));
 }
 
 TEST_P(QuatroTest, MatchesOnAPlumbLineWithNoiseHoldNone) {
-  // A pole: its noise has some heading, which is not the pose's.
+  // The noise of a pole determines some heading, which is not that of the pose.
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 30, .num_outliers = 0}, seed);
@@ -413,7 +415,7 @@ TEST_P(QuatroTest, PointsThatAreNotFiniteAreRefused) {
   }
 }
 
-// Faults that other implementations had.
+// Faults of other implementations.
 TEST_P(QuatroTest, NoiseBoundOfOneCallDoesNotRuleTheNext) {
   QuatroOptions narrow = options_;
   narrow.noise_bound = 0.03;
@@ -429,8 +431,8 @@ TEST_P(QuatroTest, NoiseBoundOfOneCallDoesNotRuleTheNext) {
 }
 
 TEST_P(QuatroTest, EachCallDividesByItsOwnNoiseBound) {
-  // mu = 1 / (2 max_r2 - 1) tells the largest residual of the plain fit in
-  // units of the bound; in metres it is the same whatever that is.
+  // mu = 1 / (2 max_r2 - 1) gives the largest residual of the plain fit in
+  // units of the bound. In meters it must not depend on the bound.
   const auto largest_residual = [&](double noise_bound) {
     QuatroOptions options = options_;
     options.pruning = Pruning::kNone;
@@ -454,7 +456,7 @@ TEST_P(QuatroTest, SecondCallGivesTheSameBits) {
 }
 
 TEST(QuatroYaw, HeightsHaveNoPartInIt) {
-  // Matches that are right in xy and wrong in z by metres.
+  // Matches that are inliers in x and y but have errors of meters in z.
   QuatroOptions options = PaperStages();
   options.consistency_test = ConsistencyTest::kPlanar;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
@@ -472,7 +474,7 @@ TEST(QuatroYaw, HeightsHaveNoPartInIt) {
 }
 
 TEST(QuatroExtensions, RecoverTrueMatchesThatTheCliqueLeftOut) {
-  // 20 true ones and 180 that are wrong in z alone.
+  // 20 inliers, and 180 matches with errors only in z.
   int num_recovered = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     KnownProblem problem =
@@ -494,7 +496,7 @@ TEST(QuatroExtensions, RecoverTrueMatchesThatTheCliqueLeftOut) {
   EXPECT_GE(num_recovered, 8);
 }
 
-// Every option shows.
+// Every option has an effect.
 class QuatroOptionTest : public ::testing::Test {
  protected:
   const KnownProblem problem_ =
@@ -564,7 +566,7 @@ TEST_F(QuatroOptionTest, GncIterationsAreLimited) {
 
 TEST_F(QuatroOptionTest, TimBoundFactorWidensTheBoundOfDifferences) {
   options_.pruning = Pruning::kNone;
-  options_.noise_bound = 0.04;  // So that noise alone goes beyond it.
+  options_.noise_bound = 0.04;  // Some noise exceeds it.
   options_.tim_bound_factor = 1.0;
   const QuatroSummary narrow = Run();
   options_.tim_bound_factor = 3.0;

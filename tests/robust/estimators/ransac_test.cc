@@ -34,8 +34,8 @@ constexpr MinimalSample kSamples[] = {MinimalSample::kThreePoints,
                                       MinimalSample::kTwoPoints,
                                       MinimalSample::kPointAndNormal};
 
-// With horizontal normals at the matched points: those of inliers are turned by
-// the yaw, up to 2 deg.
+// A problem with horizontal normals at the matched points. Those of inliers are
+// rotated by the yaw, with errors of up to 2 deg.
 struct ProblemWithNormals : KnownProblem {
   MatchedNormals normals;
 };
@@ -101,8 +101,8 @@ TEST(NumIterationsFor, IsTheFormulaByNumber) {
   EXPECT_EQ(NumIterationsFor(0.5, 0, 10, 1), kInfinity);
 }
 
-// The chance of the formula, met by counting: a sample without an outlier finds
-// the pose, and nothing else does.
+// The probability of the formula, confirmed by counting: only a sample without
+// an outlier finds the pose.
 TEST(Ransac, FindsAnOutlierFreeSampleAsOftenAsTheFormulaSays) {
   constexpr int kNumRuns = 400;
   RansacOptions options;
@@ -156,7 +156,7 @@ TEST(Ransac, StopsOnceConfident) {
 TEST(Ransac, FindsThePoseAmongOutliers) {
   struct Case {
     MinimalSample sample;
-    std::vector<Eigen::Index> num_inliers;  // Of 600.
+    std::vector<Eigen::Index> num_inliers;  // Out of 600.
   };
   const Case cases[] = {
       {MinimalSample::kThreePoints, {600, 300, 120, 60}},
@@ -208,7 +208,7 @@ TEST(Ransac, ThreePointsFindAnyRotation) {
   }
 }
 
-// No triple of all 220 gives a pose that costs less than the answer.
+// None of the 220 triples gives a pose of lower cost than the result.
 TEST(Ransac, IsNoWorseThanEverySampleThereIs) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const ProblemWithNormals problem =
@@ -244,8 +244,9 @@ TEST(Ransac, IsNoWorseThanEverySampleThereIs) {
   }
 }
 
-// One sample, whose yaw is off by a degree or two: few matches of a large scene
-// are within the bound of its pose, and least squares on these is not enough.
+// The yaw of a single sample has an error of a degree or two. Few matches of a
+// large scene are within the bound of its pose, and least squares on these is
+// not enough.
 TEST(Ransac, LocalOptimizationLowersTheCost) {
   RansacOptions options = WithSample(MinimalSample::kPointAndNormal);
   options.confidence = 1.0;
@@ -306,7 +307,8 @@ TEST(Ransac, SwappingSourceAndTargetInvertsThePose) {
   }
 }
 
-// The samples are others, shuffled by the coordinates; the answer is not.
+// The samples differ, since the order depends on the coordinates; the result
+// does not.
 TEST(Ransac, MovingTheTargetMovesThePose) {
   const ProblemWithNormals problem =
       MakeProblem({.num_inliers = 100, .num_outliers = 200}, 3);
@@ -381,7 +383,7 @@ TEST(Ransac, CopiesWithOtherNormalsAreOneMatchInAnyOrder) {
                                &shuffled_normals),
                    expected);
   }
-  // Alone, a match has the heading of its normals.
+  // A single match has the heading of its normals.
   const auto solve_copies = [&](const std::vector<Eigen::Index>& copies) {
     const MatchedNormals of_copies{Reordered(normals.source, copies),
                                    Reordered(normals.target, copies)};
@@ -424,10 +426,10 @@ TEST(Ransac, FewerMatchesThanNeededAreNoAnswer) {
       } else {
         ExpectNoAnswer(summary, PoseTermination::kInsufficient);
         EXPECT_THAT(summary.message,
-                    HasSubstr("needs " + std::to_string(num_needed)));
+                    HasSubstr("needs at least " + std::to_string(num_needed)));
       }
     }
-    // One match, a hundred times.
+    // One match, repeated a hundred times.
     if (num_needed == 1) continue;
     ExpectNoAnswer(SolveRansac(problem.source.col(0).replicate(1, 100),
                                problem.target.col(0).replicate(1, 100),
@@ -525,7 +527,7 @@ TEST(Ransac, BadInputIsRefused) {
   EXPECT_THAT(with_few.message, HasSubstr("not as many normals as matches"));
   problem.normals.source(0, 0) = kNaN;
   EXPECT_THAT(Solve(problem, options).message, HasSubstr("normal is not"));
-  EXPECT_TRUE(Solve(problem).IsUsable());  // They are not looked at.
+  EXPECT_TRUE(Solve(problem).IsUsable());  // The normals are ignored.
   problem.target(2, 3) = kNaN;
   const RansacSummary summary = Solve(problem);
   ExpectNoAnswer(summary, PoseTermination::kInvalidInput);

@@ -16,7 +16,7 @@
 namespace quatro {
 namespace {
 
-// From the true rotation and a shift that is not the true one.
+// Starts from the true rotation and an incorrect translation.
 Rigid3 Displaced(const Rigid3& pose, const Eigen::Vector3d& by) {
   return {pose.rotation, pose.translation + by};
 }
@@ -31,7 +31,7 @@ TEST(Recovery, NeverCostsMoreThanThePoseGiven) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const double ratio = 0.1 * static_cast<double>(seed % 10);
     const MatchedProblem problem = MakeOutlierProblem(100, ratio, 0.1, seed);
-    // From nearly right to anywhere, and rotations that are wrong too.
+    // From small to arbitrary translation errors, and with rotation errors too.
     const double far = std::pow(10.0, static_cast<double>(seed / 10 % 5) - 2.0);
     Rigid3 given =
         Displaced(problem.true_target_from_source, far * RandomDirection(seed));
@@ -62,7 +62,7 @@ TEST(Recovery, FindsTheTranslationFromAnywhere) {
 }
 
 TEST(Recovery, FindsTheHeightOfATranslationThatIsRightInThePlane) {
-  // Few true matches: the best x and y over all are not those of the truth.
+  // With few inliers the best x and y over all matches are not the true ones.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const MatchedProblem problem = MakeOutlierProblem(400, 0.99, 0.05, seed);
     const Rigid3 recovered = RecoverTranslation(
@@ -87,8 +87,8 @@ TEST(Recovery, KeepsWhatNothingBeats) {
 }
 
 TEST(Recovery, QuasiInliersLoseTheirHold) {
-  // 20 true matches and 180 that are right in x and y and wrong in z, by which
-  // the clique is led astray.
+  // 20 inliers, and 180 matches that are inliers in x and y but not in z and
+  // mislead the clique.
   constexpr double kBound = 0.1;
   int num_right_without = 0;
   int num_right = 0;

@@ -121,7 +121,8 @@ TEST(Teaser, SwappingSourceAndTargetInvertsThePose) {
       SolveTeaser(problem.target, problem.source, {});
   ASSERT_TRUE(forward.IsUsable() && backward.IsUsable());
   EXPECT_EQ(backward.consistent, forward.consistent);
-  // Translations are the best per axis, of axes that are turned.
+  // The translation is optimal on each axis, and the axes of the two frames
+  // differ by a rotation.
   EXPECT_LE(LargestDisplacement(Inverse(*backward.target_from_source),
                                 *forward.target_from_source,
                                 problem.source),
@@ -157,7 +158,7 @@ TEST(Teaser, EveryConsistentMatchHasAWeight) {
   }
 }
 
-// The ring of differences is another one, shuffled by the coordinates.
+// The ring of differences changes, since the order depends on the coordinates.
 TEST(Teaser, MovingTheTargetMovesThePose) {
   const KnownProblem problem = TurnedProblem(60, 120, 3);
   const TeaserSummary base = Solve(problem);

@@ -75,7 +75,7 @@ TEST(TimRandom, DrawsAsManyAsAskedForBetweenDifferentPoints) {
       ASSERT_LT(std::max(a, b), n);
       seen.emplace(a, b);
     }
-    // All n (n - 1) ordered pairs come up, so none is out of reach.
+    // All n (n - 1) ordered pairs occur.
     EXPECT_THAT(seen, SizeIs(n * (n - 1)));
   }
 }
@@ -97,7 +97,7 @@ TEST(ComputeTims, SubtractsTheSecondFromTheFirst) {
 }
 
 TEST(ComputeTims, DoNotHoldTheTranslation) {
-  Points points(3, 4);    // Whole numbers: the shift is exact.
+  Points points(3, 4);    // Integers, so the shift is exact.
   points << 1, -2, 4, 7,  //
       0, 3, -9, 5,        //
       2, 2, 8, -1;

@@ -28,7 +28,7 @@ using Id = ceres::ResidualBlockId;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// kDim numbers, all of them (x - value) / sigma.
+// kDim residuals, each (x - value) / sigma.
 template <int kDim>
 struct OffsetFrom {
   template <typename T>
@@ -46,7 +46,8 @@ ceres::CostFunction* MakeOffset(double value, double sigma = 1.0) {
       new OffsetFrom<kDim>{value, sigma});
 }
 
-// The mean of values, the smallest problem there is, for numbers by hand.
+// The mean of values: the smallest problem, with results that can be computed
+// by hand.
 struct MeanProblem {
   explicit MeanProblem(const std::vector<double>& values,
                        ceres::LossFunction* loss = nullptr) {
@@ -59,8 +60,8 @@ struct MeanProblem {
   ceres::Problem problem;
 };
 
-// About as far as Ceres goes: beyond that its steps are no more than rounding,
-// and it takes them for a failure.
+// About the tightest tolerance for Ceres: below it the steps are rounding
+// errors, which Ceres treats as a failure.
 CeresGncOptions Tight(double bound = 1.0) {
   CeresGncOptions options;
   options.bound = bound;
@@ -79,7 +80,7 @@ CeresGncOptions NeverConverging() {
   return options;
 }
 
-// The same as robust/gnc/gnc.h sees it, with a closed form.
+// The mean as a subproblem of robust/gnc/gnc.h, in closed form.
 struct MeanSubproblem {
   using Estimate = double;
   Eigen::Index NumMeasurements() const { return values.size(); }
@@ -93,7 +94,7 @@ struct MeanSubproblem {
   Eigen::VectorXd values;
 };
 
-// The loop is that of quasi-SO(3)
+// The loop equals that of quasi-SO(3)
 
 TEST(CeresGncTest, TakesTheStepsOfTheClosedForm) {
   const std::vector<double> values = {0.0, 0.1, 0.3, -0.2, 7.0, 9.0, -40.0};
@@ -206,8 +207,8 @@ TEST(CeresGncMu, KnownBlocksHaveNoSayInTheStart) {
   CeresGncOptions options = Tight();
   options.known_outliers = {mean.ids[4]};
   options.known_inliers = {mean.ids[3]};
-  // The plain fit is 1 with the one at 3.7, without that at 100; of the
-  // candidates those at 0.1 are the farthest, and within their bound.
+  // The plain fit is 1 with the value at 3.7 and without the value at 100. The
+  // candidates at 0.1 are the farthest from it, and within their bounds.
   const auto summary = SolveCeresGnc(&mean.problem, options);
   EXPECT_EQ(summary.termination, GncTermination::kAllInliers);
   EXPECT_NEAR(mean.x, 1.0, 1e-7);
@@ -231,7 +232,7 @@ TEST(CeresGncMu, MovesByItsStep) {
   }
 }
 
-// Each stopping rule alone
+// Each stopping criterion alone
 
 TEST(CeresGncStop, OnceWeightsAreBinary) {
   CeresGncOptions options = NeverConverging();
@@ -246,16 +247,16 @@ TEST(CeresGncStop, OnceWeightsAreBinary) {
 
 TEST(CeresGncStop, OnceTheCostSettles) {
   CeresGncOptions options = NeverConverging();
-  options.gnc.relative_cost_tolerance = 1e9;  // Two are needed to compare.
+  options.gnc.relative_cost_tolerance = 1e9;  // Compares two costs.
   MeanProblem mean({0.0, 0.1, 0.3, 40.0});
   const auto summary = SolveCeresGnc(&mean.problem, options);
   EXPECT_EQ(summary.termination, GncTermination::kConverged);
-  EXPECT_EQ(summary.message, "the cost settled");
+  EXPECT_EQ(summary.message, "the cost converged");
   EXPECT_EQ(summary.iterations.size(), 2u);
 }
 
 TEST(CeresGncStop, CostThatSettlesIsThatOfKnownInliersToo) {
-  // 1e6 of cost that no weight moves hide a change of 1.
+  // A constant cost of 1e6 hides a change of 1.
   MeanProblem mean({0.0, 0.1, 0.3, 40.0});
   double y = 0.0;
   const Id a = mean.problem.AddResidualBlock(MakeOffset(1e3), nullptr, &y);
@@ -264,7 +265,7 @@ TEST(CeresGncStop, CostThatSettlesIsThatOfKnownInliersToo) {
   options.known_inliers = {a, b};
   options.gnc.relative_cost_tolerance = 1e-3;
   const auto summary = SolveCeresGnc(&mean.problem, options);
-  EXPECT_EQ(summary.message, "the cost settled");
+  EXPECT_EQ(summary.message, "the cost converged");
   EXPECT_EQ(summary.iterations.size(), 2u);
   EXPECT_GE(summary.iterations.back().cost, 1e6);
 }
@@ -306,8 +307,8 @@ TEST(CeresGncStop, AtThePlainFitWhereAllAreInliers) {
 // Weights
 
 TEST(CeresGncWeights, BelowBetweenAndAboveTheBounds) {
-  // Held at zero; r2 0.25, 1, 2.25, 9, so mu = 1/17 and the bounds are 1/18
-  // and 18; then mu = 4 and the bounds 0.8 and 1.25.
+  // x is constant at zero; r2 is 0.25, 1, 2.25, 9, so mu = 1/17 and the bounds
+  // are 1/18 and 18; then mu = 4 and the bounds are 0.8 and 1.25.
   MeanProblem mean({0.5, 1.0, 1.5, 3.0});
   mean.problem.SetParameterBlockConstant(&mean.x);
   CeresGncOptions options = NeverConverging();
@@ -351,7 +352,7 @@ TEST(CeresGncWeights, EachBlockHasTheBoundOfItsDimension) {
   EXPECT_EQ(summary.blocks.at(six).bound, 7.5);
 }
 
-// |r|^2 = 12 is too much for three numbers and fair for six.
+// |r|^2 = 12 is above the bound of three residuals and below that of six.
 TEST(CeresGncWeights, DimensionDecides) {
   double x = 0.0;
   ceres::Problem problem;
@@ -429,7 +430,7 @@ TEST(CeresGncRoles, NoCandidatesIsThePlainSolve) {
   EXPECT_NEAR(mean.x, 8.5, 1e-7);
 }
 
-// Never to be asked.
+// Must never be evaluated.
 class Refuses final : public ceres::SizedCostFunction<1, 1> {
  public:
   bool Evaluate(double const* const*, double*, double**) const override {
@@ -521,16 +522,16 @@ TEST_F(CeresGncRefuses, NumbersOutOfRange) {
 }
 
 TEST_F(CeresGncRefuses, LossThatNeverReachesTheBound) {
-  // Tukey's ends at a^2 / 3.
+  // Tukey's loss saturates at a^2 / 3.
   mean_.problem.AddResidualBlock(
       MakeOffset(0.0), new ceres::TukeyLoss(1.0), &mean_.x);
   ExpectRefused(options_, "never reaches its bound");
 }
 
-// A block's own loss
+// Losses of blocks
 
 TEST(CeresGncLosses, ScaleIsPartOfTheResidual) {
-  // As if each residual were halved: 4 is within a bound of 2.
+  // The loss halves each residual in effect, so 4 is within a bound of 2.
   MeanProblem scaled(
       {0.0, 4.0}, new ceres::ScaledLoss(nullptr, 0.25, ceres::TAKE_OWNERSHIP));
   scaled.problem.SetParameterBlockConstant(&scaled.x);
@@ -560,7 +561,7 @@ TEST(CeresGncLosses, WeightsMultiplyThem) {
 
 // The caller's problem
 
-// Huber's, and counts when Ceres deletes it.
+// Huber's loss; counts its deletions by Ceres.
 class CountedHuber final : public ceres::LossFunction {
  public:
   explicit CountedHuber(int* num_deleted) : num_deleted_(num_deleted) {}
@@ -574,7 +575,7 @@ class CountedHuber final : public ceres::LossFunction {
   int* num_deleted_;
 };
 
-// Holds the second of two numbers, and counts likewise.
+// Keeps the second of two parameters constant and counts its deletions.
 class CountedSubset final : public ceres::Manifold {
  public:
   explicit CountedSubset(int* num_deleted) : num_deleted_(num_deleted) {}
@@ -661,13 +662,13 @@ TEST_F(CallersProblem, IsAsItWas) {
   const auto summary = SolveCeresGnc(problem_.get(), Tight());
   ASSERT_TRUE(summary.IsUsable()) << summary.FullReport();
   ExpectUntouched();
-  // Constant, held by the manifold, within the bounds.
+  // A constant block, a coordinate fixed by its manifold, and bounds.
   EXPECT_EQ(y_[0], 0.125);
   EXPECT_EQ(x_[1], 1.0);
   EXPECT_NEAR(x_[0], 0.33 - 0.125, 1e-7);
   EXPECT_EQ(summary.blocks.at(ids_[9]).weight, 0.0);
 
-  // And solves as before: the outliers are back.
+  // The problem solves as before, outliers included.
   ceres::Solver::Summary plain;
   ceres::Solve(Tight().solver, problem_.get(), &plain);
   EXPECT_NEAR(x_[0], 0.5, 1e-7);
@@ -677,7 +678,7 @@ TEST_F(CallersProblem, IsAsItWas) {
 }
 
 TEST_F(CallersProblem, ParametersStayWithinTheirBounds) {
-  for (const double end : {0.1, 0.3}) {  // The answer is 0.205.
+  for (const double end : {0.1, 0.3}) {  // The solution is 0.205.
     problem_->SetParameterLowerBound(x_, 0, end < 0.2 ? -0.25 : end);
     problem_->SetParameterUpperBound(x_, 0, end < 0.2 ? end : 0.5);
     x_[0] = end;
@@ -699,7 +700,7 @@ TEST_F(CallersProblem, IsAsItWasAfterTwoCalls) {
   }
 }
 
-// Fails the n-th inner solve from inside.
+// Makes the n-th inner solve fail.
 class AbortIn final : public ceres::IterationCallback {
  public:
   explicit AbortIn(int num_solves) : left_(num_solves) {}
@@ -733,7 +734,7 @@ TEST_F(CallersProblem, IsAsItWasWhereASolveFails) {
 }
 
 TEST_F(CallersProblem, SolverOptionsKeepTheirOrdering) {
-  // Ceres takes constant blocks out of the ordering it is given.
+  // Ceres removes constant blocks from the ordering it gets.
   CeresGncOptions options = Tight();
   options.solver.linear_solver_type = ceres::DENSE_SCHUR;
   options.solver.linear_solver_ordering =
@@ -762,7 +763,7 @@ TEST(CeresGncValues, AreThoseOfThePlainSolveBitForBit) {
 }
 
 TEST(CeresGncValues, GoOnFromTheLastSolve) {
-  // Each inner solve begins where the one before ended, not at x = 1e3.
+  // Each inner solve starts at the result of the previous one, not at x = 1e3.
   MeanProblem mean({0.0, 0.1, -0.1, 30.0});
   mean.x = 1e3;
   const auto summary = SolveCeresGnc(&mean.problem, Tight());
@@ -778,7 +779,7 @@ TEST(CeresGncValues, AreRestoredWhereAllWeightIsTakenAway) {
   mean.x = 3.0;
   const auto summary = SolveCeresGnc(&mean.problem, Tight());
   EXPECT_EQ(summary.termination, GncTermination::kUndetermined);
-  EXPECT_THAT(summary.message, HasSubstr("all weight was taken away"));
+  EXPECT_THAT(summary.message, HasSubstr("all candidates were rejected"));
   EXPECT_EQ(mean.x, 3.0);
 }
 
@@ -802,7 +803,7 @@ TEST(CeresGncValues, OfAnEmptyProblemAreNoAnswer) {
   EXPECT_THAT(summary.message, HasSubstr("no residual block"));
 }
 
-// The residual is what the callback left behind.
+// The callback computes the residual.
 class Halve final : public ceres::EvaluationCallback {
  public:
   explicit Halve(const double* x) : x_(x) {}
@@ -848,7 +849,7 @@ TEST(CeresGncValues, CanComeByAnEvaluationCallback) {
   EXPECT_NEAR(x, 2.0, 1e-9);
 }
 
-// Where the plain solve fails
+// Problems whose plain solve fails
 
 struct LineResidual {
   template <typename T>
@@ -859,7 +860,7 @@ struct LineResidual {
   double x, y;
 };
 
-// 300 points, 90 of them within 0.05 of a line and the rest anywhere.
+// 300 points, 90 of them within 0.05 of a line, the others at random.
 struct LineProblem {
   explicit LineProblem(std::uint64_t seed, double huber = 0.0) {
     Random random(seed);
@@ -880,7 +881,7 @@ struct LineProblem {
     ceres::Solve(Tight().solver, &problem, &ignored);
   }
 
-  // Of the line's ends, the worse.
+  // The larger error at the two ends of the line.
   double Error() const {
     return std::max(std::abs(line[1] - 1.0),
                     std::abs(10.0 * line[0] + line[1] - 6.0));
@@ -900,7 +901,7 @@ TEST(CeresGncTest, FindsTheLineThatThePlainSolveAndHuberMiss) {
     huber.SolvePlain();
     EXPECT_GT(huber.Error(), 0.5) << "seed " << seed;
 
-    // At a step of 1.4 truncated least squares is too greedy here.
+    // With mu_step = 1.4 truncated least squares is too greedy here.
     CeresGncOptions options = Tight(0.1);
     options.gnc.mu_step = 1.1;
     options.gnc.max_num_iterations = 300;

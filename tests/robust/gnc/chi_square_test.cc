@@ -43,7 +43,7 @@ TEST(ChiSquareQuantile, IsThatOfThePrintedTable) {
   }
 }
 
-// std::lgamma does, and two threads must not at once.
+// std::lgamma writes to the global `signgam`, a race between two threads.
 TEST(ChiSquareQuantile, WritesNoGlobal) {
   signgam = 7;
   ChiSquareQuantile(0.99, 6);
@@ -65,7 +65,7 @@ TEST(ChiSquareQuantile, IsWhereTheTailIsLeft) {
   }
 }
 
-// The sum of n squares of normal numbers, counted.
+// The sum of n squares of standard normal numbers, by simulation.
 TEST(ChiSquareTail, IsTheShareOfDraws) {
   constexpr int kNumDraws = 200000;
   for (const int n : {1, 2, 3, 6}) {

@@ -18,7 +18,7 @@ using Surrogates =
     ::testing::Types<TruncatedLeastSquares, GemanMcClure, Welsch>;
 TYPED_TEST_SUITE(GncLossTest, Surrogates);
 
-// Both derivatives against differences, as Ceres tests its own losses.
+// Both derivatives against finite differences, as Ceres tests its losses.
 TYPED_TEST(GncLossTest, DerivativesAreThoseOfTheLoss) {
   constexpr double kStep = 1e-5;
   for (const double mu : {0.05, 1.0, 9.0}) {
@@ -56,8 +56,8 @@ TEST(GncLossBound, IsTheResidualAndNotItsSquare) {
   EXPECT_EQ(rho[1], 0.0);
 }
 
-// Thirteen values about zero and seven about ten: the mean is 3.5, and the
-// exact loss has a minimum at each heap.
+// Thirteen values near zero and seven near ten. The mean is 3.5, and the exact
+// loss has a minimum at each cluster.
 struct OffsetFrom {
   template <typename T>
   bool operator()(const T* x, T* residual) const {

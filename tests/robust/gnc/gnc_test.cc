@@ -21,7 +21,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The smallest subproblem there is, for numbers by hand: the mean of values.
+// The mean of values: the smallest subproblem, with results that can be
+// computed by hand.
 struct MeanSubproblem {
   using Estimate = double;
   Eigen::Index NumMeasurements() const { return values.size(); }
@@ -38,15 +39,16 @@ struct MeanSubproblem {
   double noise_bound = 1.0;
 };
 
-// Plain mean 1, squared residuals 1, 1, 1, 9; from zero: 0, 0, 0, 16.
+// The plain mean is 1, with squared residuals 1, 1, 1, 9; those from zero are
+// 0, 0, 0, 16.
 MeanSubproblem ThreeZerosAndAFour() { return {Eigen::Vector4d(0, 0, 0, 4)}; }
 
-// Far from settled after a few iterations.
+// Does not converge within a few iterations.
 MeanSubproblem ThreeNearAndOneFar() {
   return {Eigen::Vector4d(0.0, 0.1, 0.3, 40.0)};
 }
 
-// Neither stopping rule applies until told otherwise.
+// Neither stopping criterion applies unless a test sets it.
 GncOptions NeverConverging() {
   GncOptions options;
   options.binary_weight_tolerance = 0.0;
@@ -54,7 +56,7 @@ GncOptions NeverConverging() {
   return options;
 }
 
-// Thirty yaws among seventy random pairs, off by 0.1 m at most.
+// Thirty pairs with one yaw, off by at most 0.1 m, among seventy random pairs.
 QuasiSo3 YawUnderSeventyPercentOutliers() {
   MatchedProblemOptions options;
   options.num_inliers = 60;
@@ -132,7 +134,7 @@ TYPED_TEST(GncTest, NoMeasurementsDetermineNothing) {
 
 TYPED_TEST(GncTest, StopsOnceWeightsAreBinaryEnough) {
   GncOptions options = NeverConverging();
-  options.binary_weight_tolerance = 0.5;  // Every weight is that near to one.
+  options.binary_weight_tolerance = 0.5;  // Every weight is this close to one.
   const auto summary = SolveGnc<TypeParam>(ThreeZerosAndAFour(), options);
   EXPECT_EQ(summary.termination, GncTermination::kConverged);
   EXPECT_EQ(summary.iterations.size(), 1u);
@@ -140,7 +142,7 @@ TYPED_TEST(GncTest, StopsOnceWeightsAreBinaryEnough) {
 
 TYPED_TEST(GncTest, StopsOnceTheCostSettles) {
   GncOptions options = NeverConverging();
-  options.relative_cost_tolerance = 1e9;  // Two costs are needed to compare.
+  options.relative_cost_tolerance = 1e9;  // Compares two costs.
   const auto summary = SolveGnc<TypeParam>(ThreeNearAndOneFar(), options);
   EXPECT_EQ(summary.termination, GncTermination::kConverged);
   EXPECT_EQ(summary.iterations.size(), 2u);
@@ -231,7 +233,7 @@ TEST(GncTermination, GemanMcClureStopsWhereItIsExact) {
       SolveGnc<GemanMcClure>(ThreeZerosAndAFour(), NeverConverging());
   EXPECT_EQ(summary.termination, GncTermination::kConverged);
   EXPECT_EQ(summary.iterations.back().mu, 1.0);
-  // From 18 down to 1 by steps of 1.4, and once at either end.
+  // From 18 down to 1 by factors of 1.4, both ends included.
   EXPECT_EQ(
       summary.iterations.size(),
       1u + static_cast<std::size_t>(std::ceil(std::log(18.0) / std::log(1.4))));
@@ -248,12 +250,12 @@ TEST(GncTermination, TruncatedLeastSquaresEndsWithBinaryWeights) {
 }
 
 TEST(GncTermination, WeightThatRunsOutIsNoAnswer) {
-  // Two values that contradict each other stay at r2 = 100 on either side of
-  // the mean until both are outliers: no 0/0, no last mean kept.
+  // Two contradicting values stay at r2 = 100 on either side of the mean until
+  // both are outliers. The result is an error, not 0 / 0 or the last mean.
   const auto summary = SolveGnc<TruncatedLeastSquares>(
       MeanSubproblem{Eigen::Vector2d(-10.0, 10.0)}, GncOptions());
   EXPECT_EQ(summary.termination, GncTermination::kUndetermined);
-  EXPECT_THAT(summary.message, HasSubstr("weight was taken away"));
+  EXPECT_THAT(summary.message, HasSubstr("measurements were rejected"));
   EXPECT_FALSE(summary.IsUsable());
   EXPECT_GT(summary.iterations.size(), 1u);
 }

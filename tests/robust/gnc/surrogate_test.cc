@@ -151,7 +151,8 @@ TYPED_TEST(SurrogateTest, FirstLossTakesNoMeasurementAwayAfterAPlainFit) {
 }
 
 TEST(TruncatedLeastSquares, WeightIsOneBelowZeroAboveAndBetweenTheBounds) {
-  // mu = 1: bounds at 1/2 and 2, sqrt(2 / r2) - 1 between them.
+  // For mu = 1 the bounds are 1/2 and 2, and the weight between them is sqrt(2
+  // / r2) - 1.
   EXPECT_EQ(TruncatedLeastSquares::Weight(0.49, 1.0), 1.0);
   EXPECT_EQ(TruncatedLeastSquares::Weight(0.5, 1.0), 1.0);
   EXPECT_NEAR(

@@ -47,8 +47,8 @@ int NumEdges(const Graph& graph) {
   return sum / 2;
 }
 
-// The table at the head of the header in double: how far inside its bound the
-// test on matches i and j is [m], negative where it fails.
+// The tests of robust/graph/consistency_test.h in double precision: how far
+// matches i and j are inside the bound [m], negative if they fail.
 double Margin(const KnownProblem& problem,
               const ConsistencyOptions& options,
               int i,
@@ -69,7 +69,7 @@ double Margin(const KnownProblem& problem,
 }
 
 TEST(ConsistencyGraph, EdgesAreThoseOfTheDefinition) {
-  // Narrow boxes, so that all tests have both edges and gaps.
+  // Narrow boxes, so that each test passes some pairs and fails others.
   const KnownProblem problem = MakeMatchedProblem(
       {.num_outliers = 110, .half_widths = {6.0, 6.0, 3.0}}, /*seed=*/1);
   for (const ConsistencyTest test : kAllTests) {
@@ -103,7 +103,7 @@ TEST(ConsistencyGraph, IsSymmetricWithoutLoopsOrBitsBeyondTheEnd) {
       const Graph graph = Build(problem.source, problem.target, test);
       ASSERT_EQ(graph.num_vertices(), n);
       for (int i = 0; i < n; ++i) {
-        // A bit beyond the end would count too.
+        // A bit beyond the last vertex would be counted too.
         EXPECT_EQ(graph.Degree(i), n - 1) << "vertex " << i << " of " << n;
         EXPECT_FALSE(graph.HasEdge(i, i)) << "vertex " << i << " of " << n;
         for (int j = 0; j < n; ++j) {
@@ -134,7 +134,7 @@ TEST(ConsistencyGraph, NumberOfThreadsDoesNotMatter) {
   }
 }
 
-// Edges may change only where a length is at its bound.
+// Edges may change only if a length is at its bound.
 TEST(ConsistencyGraph, MovingTheTargetByYawAndTranslationKeepsIt) {
   const KnownProblem problem = MakeMatchedProblem({}, /*seed=*/4);
   const Rigid3 motion{RotationZ(-2.5), {100.0, -30.0, 7.0}};
@@ -170,7 +170,7 @@ TEST(ConsistencyGraph, OnlyPlanarKeepsMatchesThatAreWrongInHeight) {
   KnownProblem problem = MakeMatchedProblem(
       {.num_inliers = 20, .num_outliers = 0, .half_widths = {10.0, 10.0, 4.0}},
       /*seed=*/7);
-  problem.target.row(2) *= -1.0;  // Heights upside down.
+  problem.target.row(2) *= -1.0;  // Heights inverted.
   problem.target.row(2) *= 3.0;
   const int all = 20 * 19 / 2;
   EXPECT_EQ(
@@ -186,8 +186,8 @@ TEST(ConsistencyGraph, OnlyPlanarKeepsMatchesThatAreWrongInHeight) {
 }
 
 TEST(ConsistencyGraph, HeightMayDifferByTheTiltOfTheDistance) {
-  // 50 m apart, one end 2 m higher: the noise bound explains 0.6 m, a tilt of
-  // 0.035 rad 1.75 m.
+  // The points are 50 m apart and one end is 2 m higher. The bound allows 0.6 m
+  // of it, a tilt of 0.035 rad 1.75 m.
   Points source = Points::Zero(3, 2);
   source(0, 1) = 50.0;
   Points target = source;

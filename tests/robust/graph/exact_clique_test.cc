@@ -24,7 +24,7 @@
 namespace quatro {
 namespace {
 
-// No limit and no way out: the answer is the maximum.
+// Options without early stops: the result is the maximum clique.
 ExactCliqueOptions Exact() {
   ExactCliqueOptions options;
   options.time_limit_seconds = std::numeric_limits<double>::infinity();
@@ -52,7 +52,7 @@ MATCHER_P(IsCliqueIn, graph, "") {
   return true;
 }
 
-// What every answer has to fulfil, and one that claims to be optimal.
+// Properties of every result, and of one that is reported as optimal.
 void ExpectSound(const Graph& graph, const ExactCliqueSummary& summary) {
   SCOPED_TRACE(summary.message);
   const int size = static_cast<int>(summary.clique.size());
@@ -81,8 +81,9 @@ Graph RandomGraph(int n, double density, std::uint64_t seed) {
   return graph;
 }
 
-// Words of `num_bits`, of `weight` ones where it is not negative, an edge where
-// two differ in `distance` bits or more: DIMACS' hamming and johnson.
+// The DIMACS graphs hamming and johnson: vertices are words of `num_bits` bits
+// with `weight` ones (any number if negative), and words that differ in at
+// least `distance` bits are adjacent.
 Graph WordGraph(int num_bits, int distance, int weight) {
   std::vector<unsigned> words;
   for (unsigned word = 0; word < 1u << num_bits; ++word) {
@@ -113,7 +114,7 @@ std::vector<int> Range(int begin, int end) {
   return range;
 }
 
-// Vertex i of `graph` becomes name[i].
+// A copy of `graph` with vertex i renamed name[i].
 Graph Relabelled(const Graph& graph, const std::vector<Eigen::Index>& name) {
   Graph relabelled(graph.num_vertices());
   for (int i = 0; i < graph.num_vertices(); ++i) {
@@ -125,8 +126,8 @@ Graph Relabelled(const Graph& graph, const std::vector<Eigen::Index>& name) {
   return relabelled;
 }
 
-// Matches of which a share is right up to normal noise of `sigma` [m]; the rest
-// pair points at random.
+// Matches with a given share of inliers, which have normal noise of `sigma`
+// [m]; the outliers pair points at random.
 Graph SceneGraph(int n, double inlier_ratio, double sigma, std::uint64_t seed) {
   const Points source = RandomPoints(n, 20.0, seed);
   Points target =
@@ -140,8 +141,8 @@ Graph SceneGraph(int n, double inlier_ratio, double sigma, std::uint64_t seed) {
   return BuildConsistencyGraph(source, target, options, 1);
 }
 
-// By trying all sets of vertices: a set is a clique iff what is left without
-// its first vertex is, and that one is next to all of it.
+// The maximum by trying all sets of vertices. A set is a clique iff it is one
+// without its first vertex, and that vertex is adjacent to all others.
 int BruteForceCliqueNumber(const Graph& graph) {
   const int n = graph.num_vertices();
   std::vector<std::uint32_t> row(static_cast<std::size_t>(n));
@@ -162,7 +163,8 @@ int BruteForceCliqueNumber(const Graph& graph) {
   return best;
 }
 
-// With or without the vertex of most strangers, until all are next to all.
+// Branches on the vertex with the most non-neighbors until the rest is a
+// clique.
 int CliqueNumberByTwoWayBranching(const std::vector<std::uint64_t>& row,
                                   std::uint64_t candidates) {
   int most = 0;
@@ -180,7 +182,7 @@ int CliqueNumberByTwoWayBranching(const std::vector<std::uint64_t>& row,
   const int with =
       1 + CliqueNumberByTwoWayBranching(
               row, candidates & row[static_cast<std::size_t>(stranger)]);
-  // With one stranger each, either of the two is as good.
+  // With one non-neighbor each, either of the two can be dropped.
   if (most == 1) return with;
   return std::max(with,
                   CliqueNumberByTwoWayBranching(
@@ -238,7 +240,8 @@ TEST(ExactClique, DisjointCliques) {
   EXPECT_EQ(FindMaximumClique(graph, Exact()).clique, Range(90, 150));
 }
 
-// r groups of equal size, up to one, an edge between any two of different ones.
+// Turan graphs: r groups of equal size up to one vertex; vertices of different
+// groups are adjacent.
 TEST(ExactClique, Turan) {
   for (const auto& [n, r] : {std::pair{13, 4}, {60, 7}, {128, 2}, {200, 33}}) {
     Graph graph(n);
@@ -277,7 +280,7 @@ TEST(ExactClique, AgreesWithBruteForce) {
   }
 }
 
-// Large enough for colours to be moved and conflicts to be counted.
+// Large enough for re-coloring and conflicts to occur.
 TEST(ExactClique, AgreesWithTwoWayBranching) {
   Random random(11);
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
@@ -293,7 +296,7 @@ TEST(ExactClique, AgreesWithTwoWayBranching) {
   }
 }
 
-// Small graphs are over before any branch; these are not.
+// Small graphs are solved without any branch; these are not.
 TEST(ExactClique, BeatsTheGreedyOneWhereThatIsNotTheMaximum) {
   int num_better = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -363,7 +366,7 @@ TEST(ExactClique, TimeLimitTooShortForAnythingLeavesAClique) {
   EXPECT_GE(summary.clique.size(), 20u);
 }
 
-// Noise at the bound: most but not all of the right ones hold together.
+// With noise near the bound, most but not all inliers are mutually consistent.
 TEST(ExactClique, NearCliqueWayOut) {
   const Graph graph = SceneGraph(3000, 0.5, 0.17, 9);
   ExactCliqueOptions options;

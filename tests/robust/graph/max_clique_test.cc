@@ -60,8 +60,8 @@ bool IsClique(const Graph& graph, const std::vector<int>& vertices) {
   return true;
 }
 
-// By the definition: what is left after taking away, again and again, all with
-// fewer than k neighbours among those left has core numbers of at least k.
+// By definition: repeatedly removing all vertices with fewer than k remaining
+// neighbors leaves the vertices with core numbers of at least k.
 std::vector<int> CoreNumbersByDefinition(const Graph& graph) {
   const int n = graph.num_vertices();
   std::vector<int> core(static_cast<std::size_t>(n), 0);
@@ -123,7 +123,8 @@ TEST(DecomposeCores, PeelsEveryVertexOnceLowestFirst) {
   std::vector<int> all(150);
   std::iota(all.begin(), all.end(), 0);
   EXPECT_EQ(vertices, all);
-  // When a vertex is peeled, no more neighbours than its core number are left.
+  // When a vertex is removed, at most as many neighbors as its core number
+  // remain.
   std::vector<bool> is_peeled(150, false);
   int previous = 0;
   for (const int i : cores.order) {
@@ -145,7 +146,7 @@ TEST(DecomposeCores, OfKnownGraphs) {
   EXPECT_THAT(DecomposeCores(tree).core_number, Each(1));
   EXPECT_THAT(DecomposeCores(CompleteGraph(70)).core_number, Each(69));
   EXPECT_THAT(DecomposeCores(Graph(4)).core_number, Each(0));
-  // A triangle with a tail and a vertex of its own.
+  // A triangle with a tail, and an isolated vertex.
   const Graph mixed = GraphOf(6, {{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 4}});
   EXPECT_THAT(DecomposeCores(mixed).core_number, ElementsAre(2, 2, 2, 1, 1, 0));
 }
@@ -221,8 +222,8 @@ TEST(FindCliqueGreedily, OfDisjointCliquesTakesTheLargest) {
 }
 
 TEST(FindCliqueGreedily, LooksBelowTheHighestCoreToo) {
-  // Five times five, all across and none within, are a core of five with no
-  // clique above two; the triangle is a core of two.
+  // A complete bipartite graph of five and five vertices has core number five
+  // and no clique above two; the triangle has core number two.
   Graph graph(13);
   for (int i = 0; i < 5; ++i) {
     for (int j = 5; j < 10; ++j) graph.AddEdge(i, j);

@@ -36,7 +36,8 @@ PairBits BitsOf(ConsistencyTest test,
   return TestPairBlocks(test, rows, columns, kSinTilt, level);
 }
 
-// Two blocks; targets are turned sources, each off by up to a bound or two.
+// Two blocks. The targets are rotated sources with errors of up to one or two
+// bounds.
 struct Problem {
   explicit Problem(double scale) : source(3, 2 * kSize), target(3, 2 * kSize) {
     Random random(1);
@@ -50,7 +51,8 @@ struct Problem {
     blocks = MakePairBlocks(source, target);
   }
 
-  // By the definition, in double: how far inside the bound, below 0 if outside.
+  // By definition, in double precision: how far inside the bound, negative if
+  // outside.
   double Margin(ConsistencyTest test, Eigen::Index i, Eigen::Index k) const {
     const Eigen::Vector3d a = (source.col(i) - source.col(k)).cast<double>();
     const Eigen::Vector3d b = (target.col(i) - target.col(k)).cast<double>();
@@ -71,7 +73,7 @@ struct Problem {
 };
 
 TEST(PairTests, BitsAreThoseOfTheDefinition) {
-  // From offsets shorter than the bound to ones of a thousand bounds.
+  // Offsets from below one bound to a thousand bounds.
   for (const double scale : {0.3, 3.0, 30.0, 1000.0}) {
     const Problem problem(scale);
     for (const ConsistencyTest test : kAllTests) {
@@ -134,7 +136,7 @@ TEST(PairTests, WhatFillsTheLastBlockPassesNoTest) {
 }
 
 TEST(PairTests, FarOffOnlyEqualLengthsPass) {
-  // Powers of both of the last three overflow.
+  // The powers of both lengths overflow for the last three values.
   for (const float far : {1e3f, 1e8f, 1e12f, 1e16f}) {
     Eigen::Matrix3Xf source = Eigen::Matrix3Xf::Zero(3, 3);
     Eigen::Matrix3Xf target = source;

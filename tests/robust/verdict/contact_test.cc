@@ -83,7 +83,7 @@ TEST_F(ContactTest, OfCloudsWithoutPointsAreNone) {
             Contacts(400, kNoContact));
 }
 
-// The evidence and the hold ask for the same contacts.
+// The evidence and the surface observability use the same contacts.
 TEST_F(ContactTest, AtHandGiveTheSameStructure) {
   const auto found = FindStructure(source(), target(), pose_, kMaxDistance, 1);
   const auto given =

@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Walls of a scene in the world frame, each from corner to corner.
+// A wall of a scene in the world frame, from corner to corner.
 struct Wall {
   Eigen::Vector2d from;
   Eigen::Vector2d to;
@@ -47,8 +47,8 @@ struct Scan {
   operator DescribedCloud() const { return {sensor, tree, normals, is_scan}; }
 };
 
-// Points within max_range of the sensor, 12 per square metre of wall 3 m high.
-// In the sensor's frame, which is turned by `yaw`.
+// Points within max_range of the sensor, 12 per square meter of walls 3 m high,
+// in the frame of the sensor, which is rotated by `yaw`.
 Scan MakeScan(const std::vector<Wall>& walls,
               const Eigen::Vector3d& place,
               double yaw,
@@ -124,7 +124,7 @@ Rigid3 Shift(double x, double y) {
   return {Eigen::Matrix3d::Identity(), {x, y, 0.0}};
 }
 
-// Which no turn maps onto itself.
+// A room without rotational symmetry.
 std::vector<Wall> FurnishedRoom() {
   return Join(Join(Box(0, 0, 20, 12), Box(6, 3, 1.5, 1.0)),
               Join(Box(-7, -2, 1, 3), Box(2, -4, 3, 1)));
@@ -149,7 +149,7 @@ TEST(GeometricEvidence, OfARightPoseSpeaksForIt) {
 
 TEST(GeometricEvidence, MedianResidualIsThatOfAShiftAlongTheNormals) {
   const ScanPair pair(Corridor());
-  // 0.15 m across the corridor is half a voxel.
+  // A shift by 0.15 m across the corridor is half a voxel.
   const GeometricEvidence evidence = Measure(
       pair.source, pair.target, Shift(0.0, 0.15) * pair.target_from_source);
   EXPECT_NEAR(evidence.median_residual, 0.5, 0.05);
@@ -175,7 +175,7 @@ TEST(GeometricEvidence, OfAWrongPoseSpeaksAgainstIt) {
   }
 }
 
-// The rival of a pose that is wrong by a shift is the right one.
+// The rival of a shifted pose is the correct pose.
 TEST(GeometricEvidence, RivalIsBetterThanAWrongPose) {
   const ScanPair pair(FurnishedRoom());
   const GeometricEvidence wrong = Measure(
@@ -203,7 +203,7 @@ TEST(GeometricEvidence, CorridorCanBeSlidAlongItsAxis) {
   }
 }
 
-// The options say what is near enough not to be a rival.
+// Poses closer than min_shift are not rivals.
 TEST(GeometricEvidence, RivalIsDisplaced) {
   const ScanPair pair(Corridor());
   EvidenceOptions options;
@@ -222,7 +222,7 @@ TEST(GeometricEvidence, PillarsCanBeSlidByTheirDistance) {
     pillars = Join(pillars, Box(3.5 * i, -4.0, 0.8, 0.8));
     pillars = Join(pillars, Box(3.5 * i, 4.0, 0.8, 0.8));
   }
-  // Only slid: a half turn is a symmetry of it too.
+  // Only for shifts: a rotation by 180 deg is another symmetry.
   EvidenceOptions options;
   const ScanPair pair(pillars);
   const auto evidence = MeasureGeometricEvidence(
@@ -241,12 +241,12 @@ TEST(GeometricEvidence, EmptyRoomCanBeTurnedByHalf) {
   const GeometricEvidence evidence = Measure(ScanPair(Box(0, 0, 20, 12)));
   EXPECT_LT(std::abs(evidence.Distinctness()), 0.05);
   EXPECT_NEAR(std::abs(evidence.rival.yaw), M_PI, 0.05);
-  // But neither slid nor turned by a quarter.
+  // Shifts and rotations by 90 deg are no symmetries of this room.
   EXPECT_GT(evidence.weakest_share, 0.2);
 }
 
-// A pillar at one end is met by few points, but where the half turn puts it the
-// sensors saw the wall behind.
+// A pillar at one end adds few points to the overlap, but at its place after a
+// rotation by 180 deg the sensors saw the wall behind.
 TEST(GeometricEvidence, RivalCanBeContradicted) {
   const auto room = Box(0, 0, 20, 12);
   const GeometricEvidence empty = Measure(ScanPair(room));
@@ -259,8 +259,7 @@ TEST(GeometricEvidence, RivalCanBeContradicted) {
 }
 
 TEST(GeometricEvidence, SquareRoomCanBeTurnedByAQuarter) {
-  // Doors that a half turn does not map onto one another would be needed to
-  // tell; a quarter is as good as a half here.
+  // Rotations by 90 and 180 deg are both symmetries of this room.
   const GeometricEvidence evidence = Measure(ScanPair(Box(0, 0, 14, 14)));
   EXPECT_LT(std::abs(evidence.Distinctness()), 0.05);
   const double quarters = evidence.rival.yaw / (M_PI / 2);
@@ -281,7 +280,7 @@ TEST(GeometricEvidence, WallInFreeSpaceIsContradicted) {
   EXPECT_GT(evidence.structure_overlap, 0.7);
 }
 
-// A wall behind another is out of sight, not in the way.
+// A wall behind another is hidden and contradicts nothing.
 TEST(GeometricEvidence, WallBehindAWallIsNotContradicted) {
   const auto corridor = Corridor();
   const auto double_walled = Join(corridor, {{{-20, 4}, {20, 4}}});
@@ -292,7 +291,7 @@ TEST(GeometricEvidence, WallBehindAWallIsNotContradicted) {
             without.free_space.num_contradicted + 5);
 }
 
-// The smaller share decides, whichever scan has more to be met.
+// The overlap is the smaller share, whichever scan has more structure.
 TEST(GeometricEvidence, CoarseOverlapIsTheSmallerOfBothWays) {
   const auto corridor = Corridor();
   const auto double_walled = Join(corridor, {{{-20, 4}, {20, 4}}});
@@ -332,7 +331,7 @@ TEST(GeometricEvidence, SwappingSourceAndTargetKeepsIt) {
     const GeometricEvidence forth = Measure(pair.source, pair.target, pose);
     const GeometricEvidence back =
         Measure(pair.target, pair.source, Inverse(pose));
-    // Up to a point or two that rounding takes over a limit.
+    // Rounding may move one or two points across a limit.
     EXPECT_NEAR(back.structure_overlap, forth.structure_overlap, 2e-3);
     EXPECT_NEAR(back.median_residual, forth.median_residual, 2e-3);
     EXPECT_NEAR(*back.free_space.ContradictedShare(),
@@ -349,7 +348,7 @@ TEST(GeometricEvidence, SwappingSourceAndTargetKeepsIt) {
   }
 }
 
-// Turned with its sensor and elsewhere.
+// A rotated cloud with its sensor, in another frame.
 TEST(GeometricEvidence, FrameOfACloudDoesNotMatter) {
   const ScanPair pair(FurnishedRoom());
   const GeometricEvidence expected = Measure(pair);
@@ -403,7 +402,7 @@ TEST(GeometricEvidence, OfNothingIsNone) {
   expect_none(empty, empty);
   expect_none(empty, pair.target);
   expect_none(tiny, pair.target);
-  // Nor where they share no space.
+  // No overlap if the scans share no space.
   EXPECT_FALSE(MeasureGeometricEvidence(
       pair.source, pair.target, Shift(1e4, 0.0), EvidenceOptions(), 1));
 }
@@ -419,13 +418,13 @@ TEST(GeometricEvidence, OfExtremeCloudsIsFinite) {
     EXPECT_TRUE(evidence.rival.rival_target_from_source.ToMatrix().allFinite());
   };
   const Points upright = Eigen::Vector3d::UnitX().replicate(1, 100);
-  // One place a hundred times, in the sensor and elsewhere.
+  // One point repeated a hundred times, at the sensor and elsewhere.
   for (const double x : {0.0, 5.0}) {
     expect_finite(Scan{Eigen::Vector3d::Zero(),
                        KdTree(Eigen::Vector3d(x, 0, 0).replicate(1, 100)),
                        upright});
   }
-  // Far from the origin, and wide.
+  // A wide cloud far from the origin.
   const Points normal = RandomPoints(100, 1.0, /*seed=*/3);
   expect_finite(Scan{{1e7, 1e7, 0.0},
                      KdTree(normal.colwise() + Eigen::Vector3d(1e7, 1e7, 0.0)),

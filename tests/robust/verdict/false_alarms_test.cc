@@ -28,7 +28,7 @@ FalseAlarms OfTruth(const KnownProblem& problem) {
                          kNoiseBound);
 }
 
-// Term by term, from Pascal's triangle.
+// The tail summed term by term, with Pascal's triangle.
 double BinomialTail(int n, int k, double p) {
   double tail = 0.0;
   for (int i = std::max(k, 0); i <= n; ++i) {
@@ -58,11 +58,11 @@ TEST(Log10BinomialTail, OfAllIsThePower) {
 }
 
 TEST(Log10BinomialTail, OfLargeNumbersDoesNotUnderOrOverflow) {
-  // P[B(1000, 1/2) >= 600] = 1.3642e-10, and half and half at the middle.
+  // P[B(1000, 1/2) >= 600] = 1.3642e-10, and about 1/2 at the middle.
   EXPECT_NEAR(Log10BinomialTail(1000, 600, 0.5), -9.865, 1e-3);
   EXPECT_NEAR(Log10BinomialTail(10001, 5001, 0.5), std::log10(0.5), 1e-9);
   EXPECT_NEAR(Log10BinomialTail(1000000, 10, 0.9), 0.0, 1e-12);
-  // The first term rules: C(10000, 500) 1e-4^500, and hardly more.
+  // The first term, C(10000, 500) 1e-4^500, dominates.
   EXPECT_NEAR(Log10BinomialTail(10000, 500, 1e-4),
               (std::lgamma(10001.0) - std::lgamma(501.0) - std::lgamma(9501.0) +
                500.0 * std::log(1e-4) + 9500.0 * std::log1p(-1e-4)) /
@@ -70,7 +70,7 @@ TEST(Log10BinomialTail, OfLargeNumbersDoesNotUnderOrOverflow) {
               1e-2);
 }
 
-// std::lgamma does, and two threads must not at once.
+// std::lgamma writes to the global `signgam`, a race between two threads.
 TEST(Log10BinomialTail, WritesNoGlobal) {
   signgam = 7;
   Log10BinomialTail(1000, 600, 0.5);
@@ -137,7 +137,7 @@ TEST(CliqueFalseAlarms, ChanceIsTheSquareOfTheShareOfConsistentPairs) {
       MakeMatchedProblem({.num_inliers = 20, .num_outliers = 60}, /*seed=*/1);
   const auto alarms = OfClique(problem, problem.inliers);
   ASSERT_TRUE(alarms);
-  // All pairs of a difference of sources and one of targets.
+  // All pairs of one difference of sources and one of targets.
   double num_consistent = 0.0;
   double num_pairs = 0.0;
   std::vector<double> sources;
@@ -154,7 +154,8 @@ TEST(CliqueFalseAlarms, ChanceIsTheSquareOfTheShareOfConsistentPairs) {
       num_pairs += 1.0;
     }
   }
-  // 20,000 draws of about 2 %: one tenth is five standard deviations.
+  // 20,000 draws with a share of about 2 %: a tolerance of a quarter is five
+  // standard deviations.
   const double e = num_consistent / num_pairs;
   EXPECT_NEAR(std::sqrt(alarms->chance), e, 0.25 * e);
   EXPECT_NEAR(alarms->log10_false_alarms,
@@ -192,8 +193,8 @@ TEST(RotationFalseAlarms, ChanceIsTheShareOfRandomYawsThatAgree) {
                                           problem.true_target_from_source,
                                           kNoiseBound);
   ASSERT_TRUE(alarms);
-  // A target difference turned at random agrees as often. Those whose lengths
-  // do not agree have no arc, and count for nothing.
+  // A randomly rotated target difference is an inlier with this probability.
+  // Differences of inconsistent lengths have no arc and are not counted.
   Random random(5);
   const Eigen::Index n = problem.source.cols();
   int num_inliers = 0;

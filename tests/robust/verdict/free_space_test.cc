@@ -18,9 +18,9 @@ using Sight = RangeImage::Sight;
 constexpr double kVoxel = 0.3;   // [m]
 constexpr double kMargin = 0.5;  // [m]
 
-// A wall 10 m ahead, 16 m wide, from 3 m below the sensor to 3 m above; and
-// something 1 m behind the sensor, since of less than the nearest nothing is
-// said.
+// A wall 10 m ahead, 16 m wide, from 3 m below the sensor to 3 m above it, and
+// a point 1 m behind the sensor, since places closer than the nearest point are
+// unknown.
 std::vector<Eigen::Vector3d> Wall() {
   std::vector<Eigen::Vector3d> wall = {{-1.0, 0.0, 0.0}};
   for (double y = -8.0; y <= 8.0; y += kVoxel) {
@@ -82,8 +82,8 @@ TEST_F(RangeImageTest, BetweenTwoBeamsIsUnknown) {
   EXPECT_EQ(At(seen, {10.0, 0.0, 0.35}), Sight::kFree);
 }
 
-// A pole 5 m ahead and the wall behind it. Beside the pole the wall was seen,
-// but the other scan's pole may be off by a little.
+// A pole 5 m ahead and the wall behind it. The wall was seen next to the pole,
+// but the pole of the other scan may have a small error.
 TEST_F(RangeImageTest, BesideAnEdgeIsNotFree) {
   auto seen = Wall();
   for (double z = -2.0; z <= 2.0; z += kVoxel) seen.push_back({5.0, 0.0, z});
@@ -97,7 +97,7 @@ TEST_F(RangeImageTest, ThePlaceOfTheSensorMattersAndNotTheFrame) {
   const Points points = AsPoints(Wall());
   const RangeImage image(points, Eigen::Vector3d::Zero(), kVoxel);
   const Points queries = RandomPoints(5000, 6.0, /*seed=*/1);
-  // A quarter turn maps cells to cells.
+  // A rotation by 90 deg maps cells to cells.
   const Rigid3 motion{RotationZ(M_PI / 2), {30.0, -20.0, 5.0}};
   const RangeImage moved(motion.Apply(points), motion.translation, kVoxel);
   int num_free = 0;
@@ -109,12 +109,12 @@ TEST_F(RangeImageTest, ThePlaceOfTheSensorMattersAndNotTheFrame) {
         sight != moved.At(motion * Eigen::Vector3d(query), kMargin);
   }
   EXPECT_GT(num_free, 100);
-  EXPECT_LE(num_different, 2);  // Rounding at the border of a cell.
+  EXPECT_LE(num_different, 2);  // Rounding at cell borders.
 }
 
 TEST_F(RangeImageTest, WithoutPointsAllIsUnknown) {
   EXPECT_EQ(At({}, {1.0, 2.0, 3.0}), Sight::kUnknown);
-  // Nor does a point in the sensor itself tell anything.
+  // A point at the sensor makes nothing known either.
   EXPECT_EQ(At({{0.0, 0.0, 0.0}}, {1.0, 2.0, 3.0}), Sight::kUnknown);
 }
 

@@ -32,7 +32,8 @@ std::optional<MatchRival> Find(const KnownProblem& problem,
                         options);
 }
 
-// The first `num_twins` of the inliers are matched as the twin would have it.
+// A problem whose first `num_twins` inliers are matched as at the pose of the
+// twin.
 KnownProblem MakeTwins(const Rigid3& twin,
                        Eigen::Index num_inliers,
                        Eigen::Index num_twins,
@@ -143,7 +144,7 @@ TEST(MatchRival, MovesWithTheFramesAndKeepsItsCount) {
 TEST(MatchRival, TurnsAboutTheVerticalThatIsGiven) {
   const Rigid3 twin{RotationZ(M_PI), Eigen::Vector3d(1.0, 2.0, 0.0)};
   const KnownProblem problem = MakeTwins(twin, 40, 30, /*seed=*/4);
-  // Up is x now.
+  // The vertical of the target is now x.
   Rigid3 lay;
   lay.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   const auto rival = FindMatchRival(problem.source,

@@ -33,7 +33,7 @@ struct Scan {
   Points normals;
 };
 
-// Two scans of one street corner from different places.
+// Two scans of a street corner from different places.
 class StructureOverlapTest : public ::testing::Test {
  protected:
   const Rigid3 target_from_source_{RotationZ(0.6), {1.0, -0.5, 0.1}};
@@ -78,7 +78,7 @@ TEST_F(StructureOverlapTest, SwappingSourceAndTargetKeepsIt) {
         Rigid3{RotationZ(yaw), Eigen::Vector3d::Zero()} * target_from_source_;
     const auto swapped = MeasureStructureOverlap(
         target_, source_, Inverse(pose), kMaxDistance, 1);
-    // Up to a point or two that rounding takes over a limit.
+    // Rounding may move one or two points across a limit.
     EXPECT_NEAR(*swapped, Overlap(pose), 2e-3) << "off by " << yaw << " rad";
   }
 }
@@ -120,7 +120,7 @@ TEST_F(StructureOverlapTest, WithoutPointsThereIsNone) {
 }
 
 TEST_F(StructureOverlapTest, SurfacesThatCrossAreNotMet) {
-  // The same points with all normals turned by a quarter.
+  // The same points with all normals rotated by 90 deg.
   const Points turned_normals = RotationZ(M_PI / 2) * target_.normals;
   const DescribedCloud turned{
       Eigen::Vector3d::Zero(), target_.tree, turned_normals};
@@ -130,7 +130,7 @@ TEST_F(StructureOverlapTest, SurfacesThatCrossAreNotMet) {
 }
 
 TEST_F(StructureOverlapTest, AnyAxisMayBeUp) {
-  // The same scans in axes with x up.
+  // The same scans in a frame with x up.
   const Rigid3 axes{
       RotationBetween(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()),
       Eigen::Vector3d::Zero()};

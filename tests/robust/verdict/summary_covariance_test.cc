@@ -30,7 +30,8 @@ PoseSummary WithCovariance(const KnownProblem& problem, PoseSummary summary) {
   return summary;
 }
 
-// Of the turns or of the translations about the inliers.
+// The block of the rotation or of the translation, about the center of the
+// inliers.
 double Spread(const PoseSummary& summary, Freedom freedom) {
   const int place = freedom == Freedom::kRotation ? 0 : 3;
   return summary.covariance->covariance_at_center->diagonal()
@@ -101,7 +102,7 @@ TEST_F(AddCovarianceTest, EveryEstimatorHasOneAndSaysWhatItEstimated) {
     EXPECT_EQ(given.covariance->rank, rank) << name;
     EXPECT_EQ(given.covariance->sigma, kNoiseBound / 3.0);
     EXPECT_EQ(given.stage_times.back().stage, "covariance");
-    // No direction is certain, and none is lost.
+    // No direction is certain, and none is missing.
     const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(
         *given.covariance->covariance_at_center);
     EXPECT_GT(eigen.eigenvalues().minCoeff(), 1e-9) << name;
@@ -145,7 +146,7 @@ TEST_F(AddCovarianceTest, WithoutAPoseThereIsNone) {
   EXPECT_FALSE(WithCovariance(problem_, PoseSummary()).covariance.has_value());
 }
 
-// An INS tells which way is up, and how well it knows.
+// An INS gives the vertical and its standard deviation.
 TEST_F(AddCovarianceTest, AssumedTiltIsTheInsOwn) {
   KnownProblem problem = problem_;
   const Attitude attitude{0.1, -0.2, 0.0};

@@ -21,8 +21,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A floor and two walls, 40 m long along x, 4 m wide and 3 m high, and one
-// wall across at its end if it `has_end`.
+// A corridor: a floor and two walls, 40 m long along x, 4 m wide and 3 m high,
+// with a wall across its end if it `has_end`.
 Surface Corridor(bool has_end, std::uint64_t seed) {
   Random random(seed);
   constexpr Eigen::Index kNum = 9000;
@@ -101,7 +101,7 @@ TEST_F(SurfaceObservabilityTest, AWallAtTheEndHoldsIt) {
       Measure(Corridor(true, 1), Moved(pose_, Corridor(true, 2)), pose_);
   ASSERT_TRUE(hold.has_value());
   EXPECT_TRUE(hold->unobservable.empty()) << hold->unobservable[0].Describe();
-  // A tenth of all points, of the seven tenths that stand.
+  // A tenth of all points; seven tenths are structure.
   EXPECT_NEAR(hold->weakest_level_share, 1.0 / 7.0, 0.02);
 }
 
@@ -134,7 +134,8 @@ TEST_F(SurfaceObservabilityTest, InformationIsOfThePointsThatAreMet) {
   EXPECT_LT((hold->information - expected).norm(), 1e-9 * expected.norm());
 }
 
-// Half a source that the target lacks, and normals that do not agree.
+// Half of the source has no counterpart in the target, or its normals are not
+// aligned.
 TEST_F(SurfaceObservabilityTest, WhatIsNotMetDoesNotCount) {
   const Surface target = Corridor(true, 3);
   Surface source = target;
@@ -211,8 +212,8 @@ TEST(SurfaceObservabilityOptions, ErrorNamesTheField) {
   EXPECT_THAT(error, HasSubstr("min_part = 1"));
 }
 
-// The front door: two scans of a corridor, through normals and matches that
-// are estimated, with the truth in place of a solver.
+// Through Register(): two scans of a corridor with estimated normals and
+// matches, and the true pose in place of a solver.
 TEST(RegisterInACorridor, NamesThePositionAlongIt) {
   const Rigid3 truth{RotationZ(0.35), {1.0, 0.5, 0.0}};
   const auto scan = [&](bool has_end, std::uint64_t seed) {

@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 
 constexpr double kNoiseBound = 0.3;  // [m]
 
-// The true pose as an estimator's answer.
+// The summary of an estimator that found the true pose.
 PoseSummary TruthOf(const KnownProblem& problem) {
   PoseSummary summary;
   summary.termination = PoseTermination::kSolved;
@@ -66,11 +66,11 @@ TEST(Judge, OfTwoMatchesIsAmbiguous) {
   const Verdict verdict = JudgeTruth(
       MakeMatchedProblem({.num_inliers = 2, .num_outliers = 100}, /*seed=*/4));
   EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
-  EXPECT_THAT(verdict.reason, HasSubstr("by chance"));
+  EXPECT_THAT(verdict.reason, HasSubstr("chance alone could"));
 }
 
 TEST(Judge, OfACrowdIsAmbiguous) {
-  // All within the noise bound: any pose that brings them there will do.
+  // All points are within the noise bound of each other, so many poses fit.
   const Verdict verdict = JudgeTruth(MakeMatchedProblem(
       {.num_inliers = 100, .half_widths = {0.05, 0.05, 0.05}}, /*seed=*/5));
   EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
@@ -135,7 +135,8 @@ TEST(Judge, ThresholdIsTheOption) {
 
 TEST(Judge, DoesNotRegisterAPoleAndALuckyMatch) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    // 20 matches on a pole, and one of 100 others that agrees with some yaw.
+    // 20 matches on a pole, and one of 100 others that is an inlier for some
+    // yaw.
     Random random(seed);
     KnownProblem problem = MakeMatchedProblem(
         {.num_inliers = 20, .num_outliers = 0, .half_widths = {0.1, 0.1, 3.0}},
@@ -167,7 +168,7 @@ TEST(Judge, DoesNotRegisterOneOfTwoTwins) {
   EXPECT_EQ(verdict.status, Status::kAmbiguous) << verdict.reason;
   ASSERT_TRUE(verdict.rival);
   EXPECT_GE(verdict.rival->num_inliers, 38);
-  EXPECT_THAT(verdict.reason, HasSubstr("agree with another"));
+  EXPECT_THAT(verdict.reason, HasSubstr("inliers of another pose"));
   EXPECT_THAT(verdict.reason, HasSubstr("180 deg"));
 }
 
@@ -196,11 +197,11 @@ TEST(Judge, TakesTheCloudsIntoAccount) {
   bad.rival.rival_overlap = 0.04;
   bad.free_space = {60, 40};
   EXPECT_EQ(judge(bad).status, Status::kAmbiguous) << judge(bad).reason;
-  EXPECT_THAT(judge(bad).reason, HasSubstr("saw through"));
-  EXPECT_THAT(judge(bad).reason, HasSubstr("fit as well"));
+  EXPECT_THAT(judge(bad).reason, HasSubstr("saw to be free"));
+  EXPECT_THAT(judge(bad).reason, HasSubstr("overlap as well"));
 }
 
-// Where scans have their matches: near a plane and dense near the sensor.
+// Points distributed as in scans: near a plane, and dense near the sensor.
 Points ScanLikePoints(Eigen::Index n, Random* random) {
   Points points(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -248,7 +249,7 @@ TEST(Judge, RegistersWhatQuatroFoundAmongOutliers) {
   }
 }
 
-// What is true of one match and of two, where nothing rules out chance.
+// With one or two inliers nothing rules out chance.
 TEST(Judge, NeverRegistersAWrongAnswerFromOneMatchOrTwo) {
   int num_right = 0;
   for (const Eigen::Index num_inliers : {1, 2}) {
@@ -281,7 +282,7 @@ TEST(Judge, NeverRegistersAWrongAnswerFromOneMatchOrTwo) {
       }
     }
   }
-  EXPECT_EQ(num_right, 20);  // Those of two.
+  EXPECT_EQ(num_right, 20);  // All problems with two inliers.
 }
 
 TEST(Judge, PassesOnWhyThereIsNoAnswer) {
