@@ -258,15 +258,15 @@ class Search {
 
   const float* descriptor_;
   const float* coordinates_;
-  float squared_length_;  //
+  float squared_length_;  // Squared norm of the query's V x.
   NearestDescriptor start_;
   bool any_;
-  bool is_done_;  // Any nearer descriptor is enough, and one was found.
+  bool is_done_;  // The search has ended.
   std::size_t nearest_box_;
 
   Float best_[kNumPieces];  // Per lane.
   Int best_index_[kNumPieces];
-  float least_;  // Smallest of best_.
+  float least_;  // The smallest of best_.
   float limit_;  // The square of the right side of (3).
 };
 

@@ -20,7 +20,7 @@
 // sanitizers would slow them down by a factor of twenty.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define QUATRO_NO_SANITIZE __attribute__((no_sanitize("address", "undefined")))
-#elif defined(__has_feature)  // Of Clang, not Eigen's stub for GCC.
+#elif defined(__has_feature)  // Clang only; not Eigen's stub for GCC.
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define QUATRO_NO_SANITIZE __attribute__((no_sanitize("address", "undefined")))
 #endif
