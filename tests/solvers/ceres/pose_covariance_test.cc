@@ -235,7 +235,7 @@ TEST_F(PoseCovarianceTest, IsTwiceTheInverseCurvatureOfTheClosedForm) {
   EXPECT_LT((*result.covariance_at_center - expected).norm(),
             1e-9 * expected.norm());
   EXPECT_TRUE(result.unobservable.empty()) << result.unobservable[0].Describe();
-  EXPECT_EQ(result.message, "held");
+  EXPECT_EQ(result.message, "computed");
 }
 
 TEST_F(PoseCovarianceTest, OfManyMatchesIsTheSameWithoutCeres) {
@@ -371,7 +371,7 @@ void ExpectNoCovariance(const PoseCovariance& result) {
   EXPECT_FALSE(result.covariance.has_value());
   EXPECT_FALSE(result.covariance_at_center.has_value());
   EXPECT_FALSE(result.unobservable.empty());
-  EXPECT_THAT(result.message, HasSubstr("matches hold"));
+  EXPECT_THAT(result.message, HasSubstr("matches constrain"));
   EXPECT_THAT(result.message, HasSubstr(result.unobservable[0].Describe()));
 }
 

@@ -163,16 +163,17 @@ TEST_P(LocalAlignmentTest, HessianIsThatOfFiniteDifferences) {
     const Rigid3& pose = *summary.target_from_source;
     const Prepared source(source_);
     const Prepared target(target_);
-    const auto held =
-        HoldTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
-    EXPECT_EQ(static_cast<Eigen::Index>(held.size()), summary.num_inliers);
-    EXPECT_NEAR(HeldCost(held, pose, options_.kernel),
+    const auto terms_at_pose =
+        FixTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
+    EXPECT_EQ(static_cast<Eigen::Index>(terms_at_pose.size()),
+              summary.num_inliers);
+    EXPECT_NEAR(FixedCost(terms_at_pose, pose, options_.kernel),
                 summary.cost,
                 1e-9 * summary.cost);
 
     Matrix6 hessian = Matrix6::Zero();
     constexpr double kStep = 1e-5;
-    for (const HeldTerm& one : held) {
+    for (const FixedTerm& one : terms_at_pose) {
       Eigen::Matrix<double, 3, 6> jacobian;
       for (int k = 0; k < 6; ++k) {
         const Vector6 delta = kStep * Vector6::Unit(k);
@@ -198,15 +199,15 @@ TEST_P(PointwiseAlignmentTest, HessianIsTheSecondDifferenceOfThePerfectCost) {
   const Rigid3& pose = *summary.target_from_source;
   const Prepared a(source_);
   const Prepared b(target);
-  const auto held =
-      HoldTerms(pose, MakeTerms(GetParam(), a, b, options_).get());
+  const auto terms_at_pose =
+      FixTerms(pose, MakeTerms(GetParam(), a, b, options_).get());
   constexpr double kStep = 1e-3;
   Matrix6 second;
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k < 6; ++k) {
       const auto cost = [&](double x, double y) {
-        return HeldCost(
-            held,
+        return FixedCost(
+            terms_at_pose,
             Perturbed(pose,
                       kStep * (x * Vector6::Unit(i) + y * Vector6::Unit(k))));
       };
@@ -234,17 +235,18 @@ TEST_P(LocalAlignmentTest, ConvergesWhereCeresDoes) {
     ASSERT_EQ(summary.termination, AlignmentTermination::kConverged)
         << summary.message;
     const Rigid3& pose = *summary.target_from_source;
-    const auto held =
-        HoldTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
-    const Rigid3 by_ceres = SolveHeldByCeres(held, pose, options_.kernel);
+    const auto terms_at_pose =
+        FixTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
+    const Rigid3 by_ceres =
+        SolveFixedByCeres(terms_at_pose, pose, options_.kernel);
     EXPECT_LE((by_ceres.translation - pose.translation).norm(), 1e-6);
     EXPECT_LE(AngleBetween(by_ceres.rotation, pose.rotation), 1e-6);
 
     // From elsewhere Ceres comes back: the agreement is not for want of a step.
     Vector6 delta;
     delta << 1e-3, -1e-3, 1e-3, 0.01, 0.01, -0.01;
-    const Rigid3 again =
-        SolveHeldByCeres(held, Perturbed(pose, delta), options_.kernel);
+    const Rigid3 again = SolveFixedByCeres(
+        terms_at_pose, Perturbed(pose, delta), options_.kernel);
     EXPECT_LE((again.translation - pose.translation).norm(), 1e-5);
     EXPECT_LE(AngleBetween(again.rotation, pose.rotation), 1e-5);
   }
@@ -391,7 +393,7 @@ TEST_P(LocalAlignmentTest, PointsAtOnePlaceAreDegenerate) {
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate)
       << summary.message;
   EXPECT_FALSE(summary.IsUsable());
-  EXPECT_EQ(summary.not_held.cols(), 3);
+  EXPECT_EQ(summary.unobservable.cols(), 3);
 }
 
 TEST_P(LocalAlignmentTest, PointsOnALineAreDegenerateAboutIt) {
@@ -401,7 +403,8 @@ TEST_P(LocalAlignmentTest, PointsOnALineAreDegenerateAboutIt) {
       Solve(source, source.colwise() + 0.1 * line, {});
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate);
   EXPECT_FALSE(summary.IsUsable());
-  EXPECT_THAT(summary.message, HasSubstr("a turn about (0.33, 0.67, 0.67)"));
+  EXPECT_THAT(summary.message,
+              HasSubstr("a rotation about (0.33, 0.67, 0.67)"));
 }
 
 TEST_P(SurfaceAlignmentTest, CorridorIsDegenerateAlongIt) {
@@ -430,9 +433,9 @@ TEST_P(SurfaceAlignmentTest, CorridorIsDegenerateAlongIt) {
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate)
       << summary.conditioning;
   EXPECT_FALSE(summary.IsUsable());
-  EXPECT_THAT(summary.message, HasSubstr("a shift along ("));
-  ASSERT_EQ(summary.not_held.cols(), 1);
-  EXPECT_GT(std::abs(summary.not_held(4, 0)), 0.99);
+  EXPECT_THAT(summary.message, HasSubstr("a translation along ("));
+  ASSERT_EQ(summary.unobservable.cols(), 1);
+  EXPECT_GT(std::abs(summary.unobservable(4, 0)), 0.99);
 }
 
 TEST_P(SurfaceAlignmentTest, PlaneIsDegenerateInThreeDirections) {
@@ -443,10 +446,10 @@ TEST_P(SurfaceAlignmentTest, PlaneIsDegenerateInThreeDirections) {
   const AlignmentSummary summary = Solve(a, b, {});
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate)
       << summary.conditioning;
-  ASSERT_EQ(summary.not_held.cols(), 3);
+  ASSERT_EQ(summary.unobservable.cols(), 3);
   // Turns about z, shifts in the plane.
-  EXPECT_LT(summary.not_held.topRows(2).norm(), 0.1);
-  EXPECT_LT(summary.not_held.row(5).norm(), 0.1);
+  EXPECT_LT(summary.unobservable.topRows(2).norm(), 0.1);
+  EXPECT_LT(summary.unobservable.row(5).norm(), 0.1);
 
   options_.min_conditioning = 0.0;
   EXPECT_TRUE(Solve(a, b, {}).IsUsable());
