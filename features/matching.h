@@ -33,8 +33,8 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       const Fpfh& target,
                                       int num_threads);
 
-// Same result with a given instruction set, which must not exceed
-// BestSimdLevel().
+// Computes the matches with a given instruction set, which must not exceed
+// BestSimdLevel(). The result is the same at every level.
 std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       const Fpfh& target,
                                       int num_threads,

@@ -9,9 +9,9 @@
 // axes of the target. Translations are analyzed with the rotation fixed.
 // Rotations are analyzed with the best translation for each,
 //
-//   A_uu  and  A_ww - A_wu A_uu^+ A_uw,                                    (2)
+//   A_uu  and  A_ww - A_wu A_uu^+ A_uw.                                    (2)
 //
-// So an unobservable direction has a name. A zero eigenvalue of the first
+// This gives each unobservable direction a name. A zero eigenvalue of the first
 // matrix means that a translation is unobservable. A zero eigenvalue of the
 // second, with eigenvector w, means that the rotation about the axis along w
 // through c + w x u is unobservable, where u = -A_uu^+ A_uw w.

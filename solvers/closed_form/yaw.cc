@@ -17,8 +17,8 @@ std::optional<YawEstimate> EstimateYaw(const PointsRef& source,
   CHECK_EQ(source.cols(), target.cols());
   CHECK_EQ(source.cols(), weights.size());
 
-  // Equation (2). `scale` is an upper bound of hypot(S, C). Compared with it,
-  // rounding is told from signal in any unit of the weights.
+  // Equation (2). `scale` is an upper bound of hypot(S, C). The ratio of the
+  // two separates signal from rounding in any unit of the weights.
   double S = 0.0;
   double C = 0.0;
   double scale = 0.0;

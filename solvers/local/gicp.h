@@ -58,7 +58,7 @@ AlignmentSummary SolveGicp(const AlignmentCloud& source,
                            const Rigid3& initial_target_from_source,
                            const GicpOptions& options);
 
-// Same, but builds trees and normals first.
+// Builds trees and normals, then aligns.
 AlignmentSummary SolveGicp(const Points& source,
                            const Points& target,
                            const Rigid3& initial_target_from_source,

@@ -34,7 +34,7 @@ AlignmentSummary SolveIcp(const Points& source,
                           const Rigid3& initial_target_from_source,
                           const LocalAlignmentOptions& options);
 
-// Same, but builds the tree first.
+// Builds the tree, then aligns.
 AlignmentSummary SolveIcp(const Points& source,
                           const Points& target,
                           const Rigid3& initial_target_from_source,

@@ -5,14 +5,15 @@
 //
 //   R, t = argmin  sum_i rho(e_i^T W_i e_i),   e_i = q_i - R p_i - t,       (1)
 //
-// over the p_i with a corresponding q_i within max_correspondence_distance of R
-// p_i + t. The method defines q_i and W_i: see icp.h, gicp.h and vgicp.h in
-// solvers/local. Each iteration finds both at the current pose, keeps them
-// fixed, and takes one Gauss-Newton step, damped (Levenberg-Marquardt) if the
-// full step would not lower (1).
+// over the p_i with a correspondence, a q_i within max_correspondence_distance
+// of the moved point. The method defines q_i and W_i: see icp.h, gicp.h and
+// vgicp.h in solvers/local. Each iteration finds both at the current pose,
+// keeps them fixed, and takes one Gauss-Newton step, damped
+// (Levenberg-Marquardt) if the full step would not lower (1).
 //
-// Steps rotate about the centroid of the moved source: R <- exp(w) R, t <- t +
-// d in coordinates with that origin. So large coordinates keep their digits.
+// Steps rotate about the centroid of the moved source. R <- exp(w) R and t <- t
+// + d are in coordinates with that origin, so large coordinates keep their
+// digits.
 //
 // There is no pose if fewer than three points correspond, or if the
 // correspondences do not constrain the pose: the least eigenvalue of the

@@ -51,7 +51,7 @@ AlignmentSummary SolveVgicp(const AlignmentCloud& source,
                             const Rigid3& initial_target_from_source,
                             const VgicpOptions& options);
 
-// Same, but builds trees and normals first.
+// Builds trees and normals, then aligns.
 AlignmentSummary SolveVgicp(const Points& source,
                             const Points& target,
                             const Rigid3& initial_target_from_source,

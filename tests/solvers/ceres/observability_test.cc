@@ -18,7 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Of points that may only be off along their normals, about `center`.
+// The information, about `center`, of points that are constrained only along
+// their normals.
 Matrix6 SurfaceInformation(const Surface& surface,
                            const Eigen::Vector3d& center) {
   Matrix6 information = Matrix6::Zero();
@@ -71,7 +72,7 @@ TEST(SplitInformation, ACylinderTurnsAndSlidesAlongItsOwnAxis) {
   Surface cylinder = RandomCylinder(200, 0.5, 4.0, 2);
   cylinder.points = (R * cylinder.points).colwise() + foot;
   cylinder.normals = R * cylinder.normals;
-  // About a point that is not on it.
+  // The center is not on the axis.
   const auto unobservable =
       UnobservableOn(cylinder, foot + Eigen::Vector3d(1.0, 2.0, 3));
   ASSERT_EQ(unobservable.size(), 2u);
@@ -94,7 +95,7 @@ TEST(SplitInformation, ASphereTurnsAboutItsMiddle) {
   }
 }
 
-// With the determinant as the oracle: it is the product of all six.
+// The determinant is the oracle: it is the product of all six eigenvalues.
 TEST(SplitInformation, IsABlockDecomposition) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
@@ -106,7 +107,7 @@ TEST(SplitInformation, IsABlockDecomposition) {
         SplitInformation(information, Eigen::Vector3d::Zero(), 0.0);
     for (const auto& direction : directions) product *= direction.information;
     EXPECT_NEAR(product / information.determinant(), 1.0, 1e-6) << seed;
-    // Of a rotation, what the covariance says of it.
+    // For a rotation, the covariance gives the expected information.
     const Matrix6 covariance = information.inverse();
     const Eigen::Vector3d w = directions[3].axis;
     EXPECT_NEAR(
