@@ -107,7 +107,7 @@ TEST(SplitInformation, IsABlockDecomposition) {
         SplitInformation(information, Eigen::Vector3d::Zero(), 0.0);
     for (const auto& direction : directions) product *= direction.information;
     EXPECT_NEAR(product / information.determinant(), 1.0, 1e-6) << seed;
-    // For a rotation, the covariance gives the expected information.
+    // The information of a rotation is the inverse of its variance.
     const Matrix6 covariance = information.inverse();
     const Eigen::Vector3d w = directions[3].axis;
     EXPECT_NEAR(

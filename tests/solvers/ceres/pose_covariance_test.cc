@@ -291,7 +291,7 @@ TEST_F(PoseCovarianceTest, MovesWithTheTargetFrame) {
   }
 }
 
-// d of the new pose. Its lever arm ends at the source's new origin.
+// The d of the new pose is the motion of the source's new origin.
 TEST_F(PoseCovarianceTest, MovesWithTheSourceFrame) {
   const Rigid3 moved_from_source{RandomRotation(8), {50.0, 6.0, -7.0}};
   const PoseCovariance before = Compute(source_, target_, pose_);
