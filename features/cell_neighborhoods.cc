@@ -17,8 +17,8 @@
 namespace quatro {
 namespace {
 
-// Ascending. By a row of bits where the indices are close together, as those of
-// a sampled cloud are.
+// Sorts in ascending order. Uses a bit set if the indices are close together,
+// as they are in a sampled cloud.
 void Sort(std::vector<std::int32_t>* indices,
           std::vector<std::uint64_t>* bits) {
   const auto [least, largest] =
@@ -43,7 +43,7 @@ void Sort(std::vector<std::int32_t>* indices,
   }
 }
 
-// Sixteen points that may be near.
+// Sixteen candidates.
 struct alignas(64) Block {
   double x[kLanes], y[kLanes], z[kLanes];
   std::int32_t index[kLanes];
@@ -51,8 +51,8 @@ struct alignas(64) Block {
 
 using Room = NeighborhoodsBuilder::Writer::Room;
 
-// Those of the blocks' points within the radius of `query`, and how many. There
-// is room for all of them.
+// Writes the points of the blocks within the radius of `query` to `room`, which
+// has space for all of them. Returns their number.
 template <int kBytes>
 QUATRO_SIMD_INLINE std::size_t Choose(const std::vector<Block>& blocks,
                                       const double* query,
@@ -130,7 +130,7 @@ std::vector<Block> MakeBlocks(const Points& points,
   for (std::size_t k = 0; k < blocks.size() * kLanes; ++k) {
     Block& block = blocks[k / kLanes];
     const std::size_t lane = k % kLanes;
-    // What fills the last block is not a number, and so within no radius.
+    // The last block is padded with NaN, which is within no radius.
     block.x[lane] = block.y[lane] = block.z[lane] = std::nan("");
     if (k >= indices.size()) continue;
     block.index[lane] = indices[k];

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The points around each point of a cloud, all at once: all points of a cell
-// (features/cells.h) have theirs in the same 27 cells, so these are put in
-// order once a cell, and every distance from a point of it to one of them is
-// computed, 16 at once. Distances and their order are those of
-// KdTree::WithinRadius(), to the last bit.
+// The neighbors of every point of a cloud within a radius, found cell by cell.
+// All points of a cell (features/cells.h) have their neighbors in the same 27
+// cells. The points of these are sorted once per cell, and the distances to
+// them are computed 16 at a time. Distances and order are those of
+// KdTree::WithinRadius(), bit for bit.
 
 #ifndef QUATRO_FEATURES_CELL_NEIGHBORHOODS_H_
 #define QUATRO_FEATURES_CELL_NEIGHBORHOODS_H_
@@ -17,8 +17,8 @@
 
 namespace quatro {
 
-// Nullopt if the cloud is wider than 2^20 radii or more than can be computed
-// with. `level` no more than BestSimdLevel().
+// Returns nullopt if the cloud is wider than 2^20 radii or its width overflows.
+// `level` must not exceed BestSimdLevel().
 std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
                                                       double radius,
                                                       int num_threads,

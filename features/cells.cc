@@ -12,8 +12,8 @@
 namespace quatro {
 namespace {
 
-// Cells may be so many on each axis that rounding keeps (1) if they are wider
-// than the radius by one part in a million.
+// With at most this many cells per axis, rounding cannot break (1) if cells are
+// wider than the radius by one part in a million.
 constexpr double kMaxCells = 1 << 20;
 constexpr double kWider = 1.0 + 1e-6;
 
@@ -27,11 +27,13 @@ std::optional<Cells> Cells::Make(const Points& points, double radius) {
   const Eigen::Vector3d extents = points.rowwise().maxCoeff() - result.low_;
   const double extent = extents.maxCoeff();
   result.width_ = radius * kWider;
-  // An extent that overflows, or none of any radius, has no cells.
+  // There are no cells if the extent overflows, or if extent and radius are
+  // zero.
   if (!(extent < kMaxCells * result.width_ && std::isfinite(extent))) {
     return std::nullopt;
   }
-  // Cells from 1, so that there is one below, and one above the last.
+  // Cells are numbered from 1, so that there is a cell below the first and one
+  // above the last.
   result.num_cells_ = (extents / result.width_).array().floor() + 3.0;
   int bits[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -81,8 +83,8 @@ void Cells::Walk::FindNear(Key key, std::vector<std::int32_t>* near) {
   near->clear();
   const Key x_step = Key{1} << cells_.x_shift_;
   const Key y_step = Key{1} << cells_.y_shift_;
-  // Below the first cell of an axis this is one at the end of another, empty as
-  // all that are at an end.
+  // If `key` is at the start of an axis, this is a cell at the end of another
+  // row. Cells at an end are always empty.
   const Key corner = key - x_step - y_step - 1;
   for (std::size_t column = 0; column < at_.size(); ++column) {
     const Key first = corner + column / 3 * x_step + column % 3 * y_step;

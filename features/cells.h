@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Points by cubes as wide as a radius, so that
+// Sorts points into cubic cells as wide as a radius. Then
 //
 //   |p - q| <= radius  =>  |cell(p) - cell(q)| <= 1 on each axis:           (1)
 //
-// what is near to a place is in the 27 cells around it.
+// all points within the radius of a place are in the 27 cells around it.
 
 #ifndef QUATRO_FEATURES_CELLS_H_
 #define QUATRO_FEATURES_CELLS_H_
@@ -20,48 +20,49 @@
 
 namespace quatro {
 
-// The cells of a cloud that hold a point.
+// The occupied cells of a cloud.
 class Cells {
  public:
-  // One of them, by number; those of neighbours differ by strides.
+  // The number of a cell. Along an axis, neighbors differ by a fixed stride.
   using Key = std::uint64_t;
 
-  // The points of a cell: [begin, end) of order().
+  // An occupied cell. Its points are [begin, end) of order().
   struct Cell {
     Key key;
     std::size_t begin, end;
   };
 
-  // Nullopt if the cloud is wider than 2^20 radii or more than can be computed
-  // with.
+  // Returns nullopt if the cloud is wider than 2^20 radii or its width
+  // overflows.
   static std::optional<Cells> Make(const Points& points, double radius);
 
-  // In ascending order of keys.
+  // The occupied cells in ascending order of keys.
   const std::vector<Cell>& cells() const { return cells_; }
 
-  // The points, cell by cell.
+  // The indices of the points, cell by cell.
   const std::vector<std::int32_t>& order() const { return order_; }
 
-  // Keys are below 2 to this power.
+  // All keys are below 2^num_key_bits().
   int num_key_bits() const { return num_key_bits_; }
 
-  // The cell around a place; nullopt where none of (1) holds a point, as for
-  // what is not finite.
+  // The key of the cell around `place`. Returns nullopt outside the grid, where
+  // no cell of (1) holds a point, and for a place that is not finite.
   std::optional<Key> KeyOf(const Eigen::Vector3d& place) const;
 
-  // Finds what is near to one key after the other; fastest where each is a
-  // little above the one before.
+  // Finds the points around one key after another. Fastest if the keys ascend
+  // in small steps.
   class Walk {
    public:
-    // Over cells that outlive it.
+    // `cells` must outlive this.
     explicit Walk(const Cells& cells) : cells_(cells) {}
 
-    // Puts the points of the 27 cells around it into *near, cell by cell.
+    // Writes the indices of the points in the 27 cells around `key` to *near,
+    // cell by cell.
     void FindNear(Key key, std::vector<std::int32_t>* near);
 
    private:
     const Cells& cells_;
-    std::array<std::size_t, 9> at_{};  // In each column of three cells.
+    std::array<std::size_t, 9> at_{};  // Per column of three cells.
   };
 
  private:
@@ -72,7 +73,7 @@ class Cells {
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d num_cells_ = Eigen::Vector3d::Zero();
   double width_ = 1.0;
-  int y_shift_ = 0, x_shift_ = 0;  // Of these axes in a key, above z.
+  int y_shift_ = 0, x_shift_ = 0;  // Bits below y and x in a key.
   int num_key_bits_ = 0;
 };
 

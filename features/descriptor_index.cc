@@ -22,14 +22,15 @@ using Coordinates = Eigen::Matrix<float, kNumAxes, Eigen::Dynamic>;
 using Corner = Eigen::Array<float, kNumAxes, 1>;
 
 bool IsDescriptor(const Fpfh& descriptors, Eigen::Index i) {
-  // A sum that is neither is of numbers that are not all zero, and all finite.
+  // A positive, finite sum means that all numbers are finite and not all are
+  // zero.
   const float sum = descriptors.col(i).cwiseAbs().sum();
   if (sum > 0.0f && std::isfinite(sum)) return true;
   return !descriptors.col(i).isZero(0.0f) && descriptors.col(i).allFinite();
 }
 
-// Puts what is on one side of the widest axis before the rest, down to tiles;
-// full ones, and 16 of them to a box, but for the last.
+// Sorts [begin, end) by recursive halving along the widest axis, down to tiles.
+// All tiles have 16 descriptors, and all boxes 16 tiles, except the last.
 void SplitInHalves(const Coordinates& along,
                    std::int32_t* begin,
                    std::int32_t* end) {
@@ -63,7 +64,7 @@ void SetBox(std::size_t at,
   }
 }
 
-// Boxes that nothing is near to.
+// Boxes at infinity, which are near to nothing.
 std::vector<Boxes> EmptyBoxes(std::size_t num) {
   Boxes empty;
   for (int axis = 0; axis < kNumAxes; ++axis) {
@@ -73,11 +74,11 @@ std::vector<Boxes> EmptyBoxes(std::size_t num) {
   return std::vector<Boxes>((num + kLanes - 1) / kLanes, empty);
 }
 
-// One search, by registers of kBytes.
+// One search, with registers of kBytes.
 template <int kBytes>
 class Search {
  public:
-  // Looks into the nearest box, at its nearest tile first.
+  // Searches the nearest box, starting with its nearest tile.
   QUATRO_SIMD_INLINE void Start(const DescriptorIndex::Parts& parts,
                                 const DescriptorQuery& query,
                                 bool any) {
@@ -95,7 +96,7 @@ class Search {
     }
     SetLeast(parts, start_.squared_distance);
 
-    // The nearest box first, so that most others need not be looked into.
+    // The nearest box comes first, so that most others can be skipped.
     nearest_box_ = 0;
     float nearest = kInfinity;
     Float sum[kNumPieces];
@@ -116,7 +117,7 @@ class Search {
     is_done_ = LookInto(parts, nearest_box_);
   }
 
-  // Which of 16 boxes may still hold a nearer one.
+  // A bit mask of the boxes, out of 16, that may contain a nearer descriptor.
   QUATRO_SIMD_INLINE std::uint32_t Choose(const DescriptorIndex::Parts& parts,
                                           std::size_t k) const {
     if (is_done_) return 0;
@@ -153,7 +154,7 @@ class Search {
     return static_cast<std::size_t>(std::countr_zero(bits));
   }
 
-  // Numbers >= 0 are ordered as their bits.
+  // Numbers >= 0 have the same order as their bits.
   QUATRO_SIMD_INLINE static float LeastOf(const Float (&x)[kNumPieces]) {
     Int least = reinterpret_cast<Int>(x[0]);
     for (int piece = 1; piece < kNumPieces; ++piece) {
@@ -173,7 +174,7 @@ class Search {
                       std::numeric_limits<float>::max());
   }
 
-  // Squared distances along the axes.
+  // Squared distances from the query to the boxes, along the axes.
   QUATRO_SIMD_INLINE void ToBoxes(const Boxes& boxes,
                                   Float (&sum)[kNumPieces]) const {
     const Float zero = {};
@@ -192,14 +193,14 @@ class Search {
     }
   }
 
-  // Equation (4), but for the query's own length.
+  // Equation (4) without the query's own length.
   QUATRO_SIMD_INLINE static void ToTileAlong(
       const DescriptorIndex::TileAlong& tile,
       const Float (&minus_twice)[kNumAxes],
       Float (&sum)[kNumPieces]) {
     for (int piece = 0; piece < kNumPieces; ++piece) {
       sum[piece] = Piece<kBytes>(tile.squared_length, piece);
-      // So that several tiles are under way at once.
+      // Unrolled, so that several tiles are computed at once.
 #pragma GCC unroll 16
       for (int axis = 0; axis < kNumAxes; ++axis) {
         Instructions<kBytes>::AddProduct(Piece<kBytes>(tile.axis[axis], piece),
@@ -209,12 +210,12 @@ class Search {
     }
   }
 
-  // Sixteen tiles. True if what is found is enough.
+  // Searches the sixteen tiles of a box. Returns true if the search can stop.
   QUATRO_SIMD_INLINE bool LookInto(const DescriptorIndex::Parts& parts,
                                    std::size_t box) {
     Float sum[kNumPieces];
     ToBoxes(parts.tile_boxes[box], sum);
-    // By value: kept in registers.
+    // A local copy, which stays in registers.
     Float minus_twice[kNumAxes];
     for (int axis = 0; axis < kNumAxes; ++axis) {
       minus_twice[axis] = Float{} - 2.0f * coordinates_[axis];
@@ -247,7 +248,7 @@ class Search {
         sum += difference * difference;
       }
       const Int index = Piece<kBytes>(tile.index, piece);
-      // Each choice by one comparison: GCC makes others one lane at a time.
+      // One comparison per choice: GCC would compute others lane by lane.
       const Int lower = index < best_index_[piece] ? index : best_index_[piece];
       const Int of_equals = sum == best_[piece] ? lower : best_index_[piece];
       best_index_[piece] = sum < best_[piece] ? index : of_equals;
@@ -257,19 +258,19 @@ class Search {
 
   const float* descriptor_;
   const float* coordinates_;
-  float squared_length_;  // Along the axes.
+  float squared_length_;  // Squared norm of the query's V x.
   NearestDescriptor start_;
   bool any_;
-  bool is_done_;  // Some is enough, and found.
+  bool is_done_;  // The search has ended.
   std::size_t nearest_box_;
 
-  Float best_[kNumPieces];  // On each lane.
+  Float best_[kNumPieces];  // Per lane.
   Int best_index_[kNumPieces];
-  float least_;  // Of the lanes.
-  float limit_;  // Square of the right side of (3).
+  float least_;  // The smallest of best_.
+  float limit_;  // The square of the right side of (3).
 };
 
-// Of up to kLanes queries, box by box: what they look at in it stays in the
+// Searches for up to kLanes queries box by box, so that a box stays in the
 // cache.
 template <int kBytes>
 QUATRO_SIMD_INLINE void Find(const DescriptorIndex::Parts& parts,
@@ -314,12 +315,12 @@ QUATRO_SIMD_AVX2 void FindByAvx2(const DescriptorIndex::Parts& parts,
 
 DescriptorAxes FindAxes(const Fpfh& a, const Fpfh& b) {
   using Matrix = Eigen::Matrix<double, kFpfhSize, kFpfhSize>;
-  constexpr Eigen::Index kNumSamples = 1000;  // Of each.
+  constexpr Eigen::Index kNumSamples = 1000;  // Per side.
   DescriptorAxes axes;
   Matrix products = Matrix::Zero();
   Eigen::Matrix<double, kFpfhSize, 1> sum =
       Eigen::Matrix<double, kFpfhSize, 1>::Zero();
-  float largest = 0.0f;  // Squared length.
+  float largest = 0.0f;  // The largest squared length.
   int num = 0;
   for (const Fpfh* side : {&a, &b}) {
     const Eigen::Index step =
@@ -334,7 +335,8 @@ DescriptorAxes FindAxes(const Fpfh& a, const Fpfh& b) {
       ++num;
     }
   }
-  // Squares of more than that may overflow; they are not worth the trouble.
+  // Larger squares could overflow. Then nothing is skipped, which is still
+  // exact.
   if (num == 0 || !(largest < 1e30f)) return axes;
   products.selfadjointView<Eigen::Lower>().rankUpdate(sum, -1.0 / num);
   axes.directions = Eigen::SelfAdjointEigenSolver<Matrix>(products)

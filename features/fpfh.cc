@@ -21,10 +21,11 @@
 namespace quatro {
 namespace {
 
-// Pieces that pairs are counted in, each in an array of its own.
+// The maximum number of parts of the cloud whose pairs are counted in parallel.
+// Each part has its own array.
 constexpr Eigen::Index kMaxParts = 8;
 
-// One part of a descriptor to a row.
+// One part of a descriptor per row.
 constexpr int kRowLanes = 16;
 using Row __attribute__((vector_size(4 * kRowLanes), may_alias)) = float;
 
@@ -32,7 +33,7 @@ struct alignas(64) Histogram {
   float part[3][kRowLanes];
 };
 
-// How many pairs of a point fall into each bin.
+// The number of pairs of a point in each bin.
 struct alignas(64) Counts {
   std::int32_t part[3][kRowLanes] = {};
 
@@ -48,13 +49,13 @@ struct alignas(64) Counts {
       }
     }
   }
-  // Of points at some distance, both with a normal.
+  // The number of pairs of distinct points that both have a normal.
   std::int32_t NumPairs() const {
     return std::accumulate(part[0], part[0] + PairBins::kNoPair, 0);
   }
 };
 
-// 1 / distance, and 0 for points at no distance.
+// 1 / distance, or 0 if the distance is 0.
 QUATRO_SIMD_CLONES void FindWeights(const float* __restrict squared_distance,
                                     std::size_t size,
                                     float* __restrict weights) {
@@ -84,8 +85,8 @@ QUATRO_SIMD_CLONES void AddUp(const Histogram* spfh,
   rows[2] = sum2;
 }
 
-// Each part to this sum; a part without mass is left at zero. Lanes past the
-// bins are zero.
+// Scales each part to the given sum. A part that is all zero stays zero. Lanes
+// past the bins are zero.
 void NormalizeParts(float sum, Histogram* histogram) {
   for (auto& part : histogram->part) {
     float mass = 0.0f;
@@ -95,8 +96,9 @@ void NormalizeParts(float sum, Histogram* histogram) {
   }
 }
 
-// Counts of the pairs of points [begin, end) with those after them, a pair
-// being the same from either side: of the points from `begin` on.
+// Counts the pairs of points [begin, end) with later points. Each pair counts
+// for both of its points, because the feature is symmetric. The result starts
+// at point `begin`.
 ZeroedVector<Counts> CountPairs(const std::vector<OrientedPoint>& points,
                                 const Neighborhoods& neighborhoods,
                                 Eigen::Index begin,
@@ -118,7 +120,7 @@ ZeroedVector<Counts> CountPairs(const std::vector<OrientedPoint>& points,
     if (!own.HasNormal()) continue;
     const std::span<const std::int32_t> index = later(i);
     const auto bins = binner.FindBins(own, points, index);
-    // In two, since neighbours often fall into the same bin.
+    // Two counters, since consecutive pairs often fall into the same bin.
     Counts of_own[2];
     for (std::size_t k = 0; k < index.size(); ++k) {
       of_own[k % 2].Add(bins[k]);
@@ -131,7 +133,7 @@ ZeroedVector<Counts> CountPairs(const std::vector<OrientedPoint>& points,
   return counts;
 }
 
-// SPFH of a point of these pairs.
+// The SPFH of a point, from the counts of its pairs.
 Histogram MakeSpfh(const Counts& counts) {
   Histogram histogram;
   for (int part = 0; part < 3; ++part) {
@@ -145,7 +147,7 @@ Histogram MakeSpfh(const Counts& counts) {
   return histogram;
 }
 
-// Equation (2) of its sum over so many pairs.
+// Computes (2) in place: *sum is the sum in (2), `num_pairs` is k.
 void FinishFpfh(const Histogram& spfh, std::int32_t num_pairs, Histogram* sum) {
   const float scale =
       num_pairs > 0 ? 1.0f / static_cast<float>(num_pairs) : 1.0f;
@@ -165,8 +167,8 @@ Fpfh ComputeFpfh(const PointsRef& points,
   const Eigen::Index n = points.cols();
   Fpfh fpfh(kFpfhSize, n);
   if (n == 0) return fpfh;
-  // Single precision about a point of the cloud, so that large coordinates keep
-  // their digits.
+  // Coordinates relative to a point of the cloud keep their digits in single
+  // precision.
   const Eigen::Vector3d center = points.col(n / 2);
   std::vector<OrientedPoint> oriented(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -182,7 +184,8 @@ Fpfh ComputeFpfh(const PointsRef& points,
         normal.z()};
   }
 
-  // A thread counts in an array of its own; whole numbers add up to the same.
+  // Each part is counted in its own array. Sums of integers do not depend on
+  // how the cloud is split.
   const Eigen::Index num_parts =
       std::min<Eigen::Index>({NumThreadsToUse(num_threads), kMaxParts, n});
   const auto part_begin = [&](Eigen::Index part) {

@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Fast point feature histograms: how the surface bends around each point.
+// Fast point feature histograms describe the shape of the surface around a
+// point.
 //
-// SPFH(p) is the histogram of the features of its pairs with its neighbours
-// (features/pair_feature.h), each of three parts of 11 bins summing to 1, and
+// SPFH(p) is the histogram of the features of the pairs of p and its neighbors
+// (features/pair_feature.h). It has three parts of 11 bins; each part sums to
+// 1. Then
 //
 //   FPFH(p) = SPFH(p) + 1/k sum_j SPFH(p_j) / |p_j - p|,                    (2)
 //
-// each part then scaled to sum to 100.
+// with each part scaled to sum to 100.
 //
 // Source: Rusu, Blodow and Beetz, "Fast Point Feature Histograms (FPFH) for 3D
-// Registration", ICRA 2009. (The weight is by distance as there; PCL and Open3D
-// divide by its square, and PCL leaves out SPFH(p).)
+// Registration", ICRA 2009. (The weight is the inverse distance as in the
+// paper. PCL and Open3D use the inverse squared distance, and PCL omits
+// SPFH(p).)
 
 #ifndef QUATRO_FEATURES_FPFH_H_
 #define QUATRO_FEATURES_FPFH_H_
@@ -29,9 +32,9 @@ constexpr int kFpfhSize = 3 * kFpfhBinsPerPart;
 // One descriptor per column.
 using Fpfh = Eigen::Matrix<float, kFpfhSize, Eigen::Dynamic>;
 
-// `neighborhoods` are those of `points` at the FPFH radius, indices ascending,
-// each point in the row of its neighbours. A column is zero
-// where the point has no normal or no neighbour with one.
+// `neighborhoods` are those of `points` at the FPFH radius: indices ascend, and
+// if j is in the row of i, then i is in the row of j. A column is zero if the
+// point has no normal or no neighbor with a normal.
 Fpfh ComputeFpfh(const PointsRef& points,
                  const PointsRef& normals,
                  const Neighborhoods& neighborhoods,

@@ -19,7 +19,7 @@
 namespace quatro {
 namespace {
 
-// What nanoflann wants to know of a set of points.
+// The interface that nanoflann expects of a set of points.
 struct Adaptor {
   const Points& points;
 
@@ -44,15 +44,15 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<
 
 constexpr std::size_t kLeafSize = 16;
 
-// nanoflann keeps distances < limit, and prunes by sums that round otherwise
-// than the distances; closed balls are promised here.
+// nanoflann keeps distances < limit, and prunes by sums that round differently
+// from the distances. This limit is large enough for a closed ball.
 double LimitOf(double squared_radius) {
   constexpr double kPruningError = 1e-12;
   return std::nextafter(squared_radius * (1.0 + kPruningError),
                         std::numeric_limits<double>::infinity());
 }
 
-// What nanoflann adds to: keeps the nearest of those below `limit`.
+// The result set that nanoflann fills: keeps the nearest point below `limit`.
 struct NearestBelow {
   double limit;
   std::optional<std::uint32_t> index;
@@ -69,7 +69,7 @@ struct NearestBelow {
   std::size_t size() const { return index ? 1 : 0; }
 };
 
-// find(i) returns the neighbours of point i.
+// find(i) returns the neighbors of point i.
 template <typename Find>
 Neighborhoods FindRows(Eigen::Index num_points,
                        int num_threads,
@@ -98,7 +98,7 @@ class KdTree::Index {
  public:
   explicit Index(const Points& points) : adaptor_{points} {}
 
-  // Built when it is first asked for, which may never be.
+  // Built on first use, which may never happen.
   const Tree& tree() {
     std::call_once(once_, [this] {
       tree_ = std::make_unique<Tree>(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Nearest points in space: the one place that knows nanoflann.
+// Nearest points in space. This is the only file that uses nanoflann.
 
 #ifndef QUATRO_FEATURES_KD_TREE_H_
 #define QUATRO_FEATURES_KD_TREE_H_
@@ -16,34 +16,35 @@
 
 namespace quatro {
 
-// A point of the tree, as seen from a query.
+// A point of the tree and its distance to a query.
 struct Neighbor {
   Eigen::Index index = 0;
   double squared_distance = 0.0;  // [m^2]
 };
 
-// Holds its own copy of the points, which must be finite. Const members may be
-// called from several threads; the first call builds the tree.
+// A k-d tree with its own copy of the points, which must be finite. Const
+// members may be called from several threads. The first query builds the tree.
 class KdTree {
  public:
-  // Of these points; it can be moved, not copied.
+  // Takes the points over. The tree is movable but not copyable.
   explicit KdTree(Points points);
   ~KdTree();
   KdTree(KdTree&&) noexcept;
   KdTree& operator=(KdTree&&) noexcept;
 
-  // The copy.
+  // The points of the tree.
   const Points& points() const { return *points_; }
 
-  // All points no further than `radius` [m], in ascending order of index.
+  // All points within `radius` [m], boundary included, in ascending order of
+  // index.
   std::vector<Neighbor> WithinRadius(const Eigen::Vector3d& query,
                                      double radius) const;
 
-  // The `k` nearest, nearest first; fewer if the tree holds fewer.
+  // The `k` nearest points, nearest first. Fewer if the tree has fewer points.
   std::vector<Neighbor> Nearest(const Eigen::Vector3d& query, int k) const;
 
-  // The nearest no further than `radius` [m]. Faster than Nearest() where there
-  // is none.
+  // The nearest point within `radius` [m], boundary included. Faster than
+  // Nearest() if there is none.
   std::optional<Neighbor> NearestWithin(const Eigen::Vector3d& query,
                                         double radius) const;
 
@@ -53,19 +54,21 @@ class KdTree {
   std::unique_ptr<Index> index_;
 };
 
-// Of each point of the tree those within `radius` [m], in ascending order of
-// index.
+// For each point of the tree, its neighbors within `radius` [m] in ascending
+// order of index.
 Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);
 
-// The same, bit for bit, by the tree alone: what cells are measured against,
-// and where they can't be used.
+// Returns the same as FindNeighborhoods(), bit for bit, but uses the tree only.
+// It is the reference for the faster search by cells, and the fallback for
+// clouds too wide for cells.
 Neighborhoods FindNeighborhoodsByTree(const KdTree& tree,
                                       double radius,
                                       int num_threads);
 
-// The same of the `k` nearest, nearest first; fewer if the tree holds fewer.
+// For each point of the tree, its `k` nearest points, nearest first. Fewer if
+// the tree has fewer points.
 Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
                                        int k,
                                        int num_threads);

@@ -14,7 +14,7 @@
 namespace quatro {
 namespace {
 
-constexpr Eigen::Index kPiece = 64;  // Queries to a thread at once.
+constexpr Eigen::Index kPiece = 64;  // Queries per piece.
 
 }  // namespace
 
@@ -38,7 +38,8 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
     }
   });
 
-  // Neighbours one after the other find what they look at in the cache.
+  // Consecutive queries are neighbors, so they find the same boxes in the
+  // cache.
   std::vector<NearestDescriptor> target_of(
       static_cast<std::size_t>(source.cols()));
   const auto& sources = source_index->order();
@@ -62,8 +63,8 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
               kPiece,
               find_target);
 
-  // Of the sources that have the same nearest target only the nearest may be
-  // its own, and is, unless any other source is nearer.
+  // If several sources have the same nearest target, only the nearest of them
+  // can be the target's nearest. It is, unless some other source is nearer.
   std::vector<NearestDescriptor> source_of(
       static_cast<std::size_t>(target.cols()));
   for (std::size_t i = 0; i < target_of.size(); ++i) {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Correspondences between two clouds by their descriptors.
+// Matches two clouds by their descriptors.
 //
 // (i, j) match iff j is the nearest to i among the target's descriptors and i
-// the nearest to j among the source's; of equal distances the lower index wins.
-// All-zero descriptors match nothing, nor do those at a distance that single
-// precision does not hold. Distances are equation (1) of
-// features/descriptor_index.h, to the last bit.
+// is the nearest to j among the source's. If distances are equal, the lower
+// index wins. All-zero descriptors have no match, nor have descriptors at a
+// distance that overflows single precision. Distances are (1) of
+// features/descriptor_index.h, bit for bit.
 
 #ifndef QUATRO_FEATURES_MATCHING_H_
 #define QUATRO_FEATURES_MATCHING_H_
@@ -19,21 +19,22 @@
 
 namespace quatro {
 
-// Columns of the two clouds that belong together.
+// A column of the source and the column of the target that it matches.
 struct Match {
   std::int32_t source = 0;
   std::int32_t target = 0;
 
-  // Equal where both columns are.
+  // Equal if both columns are equal.
   friend bool operator==(const Match&, const Match&) = default;
 };
 
-// In ascending order of `source`.
+// Returns all mutual nearest neighbors in ascending order of `source`.
 std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       const Fpfh& target,
                                       int num_threads);
 
-// The same by one instruction set, no more than BestSimdLevel().
+// Computes the matches with a given instruction set, which must not exceed
+// BestSimdLevel(). The result is the same at every level.
 std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       const Fpfh& target,
                                       int num_threads,

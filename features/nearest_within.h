@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Of many places the nearest point of a cloud each, all at once:
+// Finds, for many places q at once, the nearest point p of a cloud,
 //
-//   argmin_p |q - p|,   if that is no more than the radius.
+//   argmin_p |q - p|,   if the distance is at most the radius.
 //
-// Places in one cell (features/cells.h) look at the same few points. Faster
-// than a kd-tree where a ball holds few points, as of a sampled cloud; what a
-// kd-tree is built for are radii that are not known before.
+// Places in the same cell (features/cells.h) share their candidates. This is
+// faster than a k-d tree if a ball of the radius holds few points, as in a
+// sampled cloud. A k-d tree is for radii that are not known in advance.
 
 #ifndef QUATRO_FEATURES_NEAREST_WITHIN_H_
 #define QUATRO_FEATURES_NEAREST_WITHIN_H_
@@ -21,9 +21,9 @@ namespace quatro {
 
 constexpr std::int32_t kNoneWithin = -1;
 
-// Of each column of `places` the index of the nearest point of the tree within
-// `radius` [m], the lowest of equally near ones; kNoneWithin where there is
-// none, or the place is not finite.
+// For each column of `places`, the index of the nearest point of the tree
+// within `radius` [m]. If points are equally near, the lowest index wins.
+// kNoneWithin if no point is that near or the place is not finite.
 std::vector<std::int32_t> FindNearestWithin(const KdTree& tree,
                                             const Points& places,
                                             double radius,

@@ -9,7 +9,7 @@
 namespace quatro {
 namespace {
 
-// As many numbers of 4 bytes as a huge page holds.
+// The number of 4-byte elements in a huge page.
 constexpr std::size_t kBlockSize = std::size_t{1} << 19;
 
 }  // namespace
@@ -23,7 +23,7 @@ std::size_t Neighborhoods::num_neighbors() const {
 NeighborhoodsBuilder::NeighborhoodsBuilder(Eigen::Index num_points) {
   const auto n = static_cast<std::size_t>(num_points);
   result_.rows_.resize(n);
-  // Few points have no more neighbours than that.
+  // n points have at most n^2 neighbors.
   block_size_ = std::min(n * n, kBlockSize);
 }
 

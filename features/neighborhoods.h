@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The points around each point of a cloud: millions of numbers, so that each is
-// written once, where it stays, into memory of huge pages.
+// The neighbors of each point of a cloud. They are millions of numbers, so each
+// is written once, in place, into memory of huge pages.
 
 #ifndef QUATRO_FEATURES_NEIGHBORHOODS_H_
 #define QUATRO_FEATURES_NEIGHBORHOODS_H_
@@ -18,36 +18,36 @@
 
 namespace quatro {
 
-// A row of neighbours for each point, itself among them.
+// A row of neighbors for each point. The point itself is one of them.
 class Neighborhoods {
  public:
-  // Of one point; both are of one size.
+  // The neighbors of one point. Both spans have the same size.
   struct Row {
     std::span<const std::int32_t> index;
     std::span<const float> squared_distance;  // [m^2]
 
-    // How many neighbours.
+    // The number of neighbors.
     std::size_t size() const { return index.size(); }
   };
 
-  // Of no points.
+  // Empty: no rows.
   Neighborhoods() = default;
 
-  // How many points have a row.
+  // The number of rows, one per point.
   Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }
 
-  // Of point i.
+  // The neighbors of point i.
   const Row& row(Eigen::Index i) const {
     return rows_[static_cast<std::size_t>(i)];
   }
 
-  // Of all points together.
+  // The number of neighbors of all points together.
   std::size_t num_neighbors() const;
 
  private:
   friend class NeighborhoodsBuilder;
 
-  // Never made larger, so that rows stay where they are.
+  // Never grows, so that rows keep their addresses.
   struct Block {
     explicit Block(std::size_t capacity)
         : index(capacity), squared_distance(capacity) {}
@@ -57,36 +57,36 @@ class Neighborhoods {
     ZeroedVector<std::int32_t> index;
     ZeroedVector<float> squared_distance;
     std::size_t used = 0;
-    bool is_taken = false;  // By a writer.
+    bool is_taken = false;  // A writer is using it.
   };
 
   std::vector<Row> rows_;
   std::vector<std::unique_ptr<Block>> blocks_;
 };
 
-// Rows are written in any order, by several threads.
+// Builds Neighborhoods. Several threads may write rows, in any order.
 class NeighborhoodsBuilder {
  public:
-  // All rows are empty at first.
+  // All rows are empty until they are written.
   explicit NeighborhoodsBuilder(Eigen::Index num_points);
 
-  // Of one thread at a time, for as many rows as it likes.
+  // Writes any number of rows. Each thread has a writer of its own.
   class Writer {
    public:
-    // Of a builder that outlives it.
+    // `builder` must outlive this.
     explicit Writer(NeighborhoodsBuilder* builder) : builder_(builder) {}
     ~Writer();
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
 
-    // Where the next row may be written to, up to so many numbers.
+    // Memory for the next row: `max_size` elements in each array.
     struct Room {
       std::int32_t* index;
       float* squared_distance;
     };
     Room MakeRoom(std::size_t max_size);
 
-    // The first `size` of the room are row i.
+    // Stores the first `size` elements of the memory from MakeRoom() as row i.
     void Add(Eigen::Index i, std::size_t size);
 
    private:
@@ -94,17 +94,19 @@ class NeighborhoodsBuilder {
     Neighborhoods::Block* block_ = nullptr;
   };
 
-  // What was written. There must be no writer left.
+  // The neighborhoods built. All writers must be destroyed before this is
+  // called.
   Neighborhoods Finish() &&;
 
  private:
-  // One with so much room: that nobody writes into, or a new one.
+  // Returns a block with room for `max_size` neighbors that no writer is using.
+  // Allocates a new block if there is none.
   Neighborhoods::Block* Take(std::size_t max_size);
   void GiveBack(Neighborhoods::Block* block);
 
   Neighborhoods result_;
   std::size_t block_size_;
-  std::mutex mutex_;  // Of the list of blocks, and of whose they are.
+  std::mutex mutex_;  // Guards result_.blocks_ and their is_taken.
 };
 
 }  // namespace quatro

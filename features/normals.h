@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Surface normals: at each point the direction of least spread of the points
-// around it,
+// Surface normals: the direction of least variance of the points around each
+// point,
 //
 //   n = argmin_{|n| = 1}  sum_j (n . (p_j - mean))^2,   |p_j - p| <= radius,
 //
-// turned towards the sensor, n . (viewpoint - p) >= 0.
+// oriented toward the sensor, n . (viewpoint - p) >= 0.
 
 #ifndef QUATRO_FEATURES_NORMALS_H_
 #define QUATRO_FEATURES_NORMALS_H_
@@ -17,10 +17,10 @@
 
 namespace quatro {
 
-// One unit normal per point, or zero where fewer than three points are within
-// `radius` [m], or all of them on a line. `neighborhoods` are those of
-// `points`, at a radius no smaller than this one; `viewpoint` is the sensor's
-// place in the cloud's frame [m].
+// One unit normal per point. Zero if fewer than three points are within
+// `radius` [m] or they are all on one line. `neighborhoods` are those of
+// `points` at a radius no smaller than `radius`. `viewpoint` is the sensor's
+// position in the cloud's frame [m].
 Points EstimateNormals(const PointsRef& points,
                        const Neighborhoods& neighborhoods,
                        double radius,

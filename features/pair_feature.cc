@@ -14,10 +14,11 @@
 namespace quatro {
 namespace {
 
-// Cosines to the line that differ less than this are equal but for rounding.
+// Cosines to the line that differ by less than this are equal up to rounding.
 constexpr float kEqualCosines = 1e-5f;
 
-// Sine of the angle between line and normal, below which v in (1) is rounding.
+// The sine of the angle between line and normal below which v in (1) is
+// rounding error.
 constexpr float kMinSine = 1e-4f;
 
 QUATRO_SIMD_INLINE std::int32_t Bin(float f) {
@@ -27,9 +28,8 @@ QUATRO_SIMD_INLINE std::int32_t Bin(float f) {
   return not_below < kFpfhBinsPerPart ? not_below : kFpfhBinsPerPart - 1;
 }
 
-// The bin of atan2(y, x) / pi without the angle: how many of the edges at
-// t = pi/11, 3 pi/11, .. 9 pi/11 that of (x, |y|) is past, |y| cos t >= x sin
-// t.
+// The bin of atan2(y, x) / pi, without computing the angle. Counts the edges at
+// t = pi/11, 3 pi/11, .. 9 pi/11 that (x, |y|) is past: |y| cos t >= x sin t.
 QUATRO_SIMD_INLINE std::int32_t AngleBin(float y, float x) {
   constexpr float kCosines[] = {
       0.95949297f, 0.65486073f, 0.14231484f, -0.41541501f, -0.84125353f};
@@ -46,7 +46,7 @@ QUATRO_SIMD_INLINE std::int32_t AngleBin(float y, float x) {
                                             : middle + num_past;
 }
 
-// Operation by operation what ComputePairFeature() does, but for the angle.
+// The same operations as ComputePairFeature(), except for the angle.
 QUATRO_SIMD_CLONES void FindAll(const OrientedPoint& own,
                                 const float* __restrict x,
                                 const float* __restrict y,

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How two points with normals stand to each other. With (p_s, n_s) the one
-// whose normal is closer to the line between them, d = (p_t - p_s) / |p_t -
-// p_s|, v = d x n_s / |d x n_s|, w = n_s x v:
+// The relative geometry of two points with normals. Let (p_s, n_s) be the point
+// whose normal is closer to the line between the two, d = (p_t - p_s) / |p_t -
+// p_s|, v = d x n_s / |d x n_s| and w = n_s x v. The feature is
 //
 //   f = ( atan2(w . n_t, n_s . n_t) / pi,   v . n_t,   n_s . d )           (1)
 //
-// each in [-1, 1], into 11 bins each. Where both normals are equally close, as
-// parallel ones, (p_s, n_s) is the one of greater n_s . d.
+// Each component is in [-1, 1] and is sorted into 11 bins. If both normals are
+// equally close to the line, for example because they are parallel, (p_s, n_s)
+// is the point with the greater n_s . d.
 //
-// Many pairs at once are taken in single precision, and the angle's bin by the
-// side of its edges that it is on: on two real scans no bin was another than by
-// ComputePairFeature().
+// PairBinner computes many pairs at once in single precision. It finds the bin
+// of the angle by comparing with the edges of the bins. On two real scans all
+// its bins were those of ComputePairFeature().
 //
 // Source: Rusu, Blodow and Beetz, "Fast Point Feature Histograms (FPFH) for 3D
 // Registration", ICRA 2009.
@@ -29,45 +30,47 @@ namespace quatro {
 
 constexpr int kFpfhBinsPerPart = 11;
 
-// Equation (1) for one pair, the same whichever point comes first. Nullopt for
-// coincident points and for a line along the normal (within 1e-4 rad).
+// Equation (1) for one pair, in either order. Returns nullopt if the points
+// coincide, or if the line between them is along the normal (within 1e-4 rad).
 std::optional<Eigen::Vector3f> ComputePairFeature(const Eigen::Vector3f& p1,
                                                   const Eigen::Vector3f& n1,
                                                   const Eigen::Vector3f& p2,
                                                   const Eigen::Vector3f& n2);
 
-// A point in single precision. One without a normal is nowhere.
+// A point with a normal, in single precision. If it has no normal, x is NaN.
 struct OrientedPoint {
-  float x, y, z;  // x is not a number of one that is nowhere.
+  float x, y, z;
   float nx, ny, nz;
 
-  // Whether it can be of a pair.
+  // Whether the point has a normal, and so can be part of a pair.
   bool HasNormal() const { return x == x; }
 };
 
-// The bins of a pair in one number, four bits a part. What has no feature is in
-// a bin past the others, the same in each part: a line along the normal, and
-// what is no pair, points at one place or one without a normal.
+// The bins of a pair packed into one number, four bits per part. A pair without
+// a feature has the same bin past the others in each part: kAlongNormal if the
+// line is along the normal, kNoPair if the points coincide or one has no
+// normal.
 struct PairBins {
   static constexpr std::int32_t kAlongNormal = 14;
   static constexpr std::int32_t kNoPair = 15;
 
   std::int32_t bits;
 
-  // The bin of part k of (1), in [0, 11), or one of those above.
+  // The bin of part k of (1), in [0, 11), or one of the constants above.
   std::int32_t part(int k) const { return bits >> (4 * k) & 15; }
 };
 
-// Of one point and several others.
+// Finds the bins of one point paired with several others.
 class PairBinner {
  public:
-  // In the order of `index`, which is into `points`. Valid until the next call.
+  // The bins of `own` paired with points[i] for each i of `index`, in that
+  // order. Valid until the next call.
   std::span<const PairBins> FindBins(const OrientedPoint& own,
                                      const std::vector<OrientedPoint>& points,
                                      std::span<const std::int32_t> index);
 
  private:
-  // The others, coordinate by coordinate.
+  // The other points, one array per coordinate.
   std::vector<float> x_, y_, z_, nx_, ny_, nz_;
   std::vector<PairBins> bins_;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Eigen::Index kMaxSamples = 2000;
 constexpr std::size_t kMinNeighbors = 5;
-constexpr double kMinWidth = 0.1;  // Of the scatter's length.
+constexpr double kMinWidth = 0.1;  // lambda_2 / lambda_1.
 
 bool IsSurface(const Points& points, const std::vector<Neighbor>& neighbors) {
   if (neighbors.size() < kMinNeighbors) return false;

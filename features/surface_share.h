@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How much of a cloud shows a surface, at a radius, and not merely a line:
+// The share of a cloud that shows a surface at a radius, rather than a line:
 //
 //   share(r) = mean_i [ |N_i| >= 5  and  lambda_2 > lambda_1 / 10 ],
 //   N_i = { p_j : |p_j - p_i| <= r },   lambda_1 >= lambda_2 >= lambda_3 of the
 //                                       scatter of N_i.
 //
-// A scan of few beams is dense along its rings and empty between them. A radius
-// that does not reach from one ring to the next sees lines, of which there is
-// no normal.
+// A scan with few beams is dense along its rings and empty between them. A
+// radius that does not reach from one ring to the next sees only lines, which
+// have no normal.
 
 #ifndef QUATRO_FEATURES_SURFACE_SHARE_H_
 #define QUATRO_FEATURES_SURFACE_SHARE_H_
@@ -17,8 +17,8 @@
 
 namespace quatro {
 
-// In [0, 1], over at most 2000 points spread evenly over the indices of
-// `tree`; `radius` [m]. Zero without points.
+// The share, in [0, 1], of at most 2000 points spread evenly over the indices
+// of `tree`. `radius` [m]. Zero if there are no points.
 double SurfaceShare(const KdTree& tree, double radius);
 
 }  // namespace quatro

@@ -36,7 +36,7 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
   const std::size_t n = matches.size();
   if (n < 3) return matches;
   const double s2 = options.scale * options.scale;
-  // Side by side, since they are looked up at random.
+  // Both ends of a match next to each other, since access is random.
   struct Ends {
     Eigen::Vector3d source, target;
   };
@@ -49,11 +49,11 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
     // Equation (1), squared.
     const double p2 = (ends[a].source - ends[b].source).squaredNorm();
     const double q2 = (ends[a].target - ends[b].target).squaredNorm();
-    // Without a branch in between, which would be taken at random.
+    // Without a branch, which would be unpredictable.
     return static_cast<bool>((s2 * q2 < p2) & (s2 * p2 < q2));
   };
 
-  // Only ever set, and so in whatever order.
+  // Flags are only ever set, so the order does not matter.
   std::vector<std::atomic<bool>> passes(n);
   const auto has_passed = [&](std::size_t i) {
     return passes[i].load(std::memory_order_relaxed);
@@ -67,7 +67,7 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
       const std::size_t a = random.Below(n);
       const std::size_t b = random.Below(n);
       const std::size_t c = random.Below(n);
-      // Nothing new, but to the count.
+      // The triple could only add to the count.
       if (!is_counted && has_passed(a) && has_passed(b) && has_passed(c)) {
         continue;
       }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The tuple test of FGR: a match is kept if, in one of the random triples it is
-// drawn into, the three sides agree in length,
+// The tuple test of FGR draws random triples of matches. It keeps a match if,
+// in at least one of its triples, the three sides have consistent lengths,
 //
 //   s < |p_a - p_b| / |q_a - q_b| < 1/s   for all three sides.             (1)
 //
@@ -19,28 +19,27 @@
 
 namespace quatro {
 
-// How strict (1) is, and how many triples are tried.
+// The strictness of (1) and the number of triples.
 struct TupleTestOptions {
   double scale = 0.95;  // s in (1), in (0, 1).
   int num_triples_per_match = 100;
 
-  // Stop once so many triples have passed; 0: never. The program of the paper's
-  // authors stops at 1000, and gives a match as often as triples with it
-  // passed.
+  // Stop once this many triples have passed; 0: never. The original code of the
+  // paper stops at 1000, and returns a match once per triple that passed.
   std::int64_t max_num_triples = 0;
 
   std::uint64_t seed = 0;
 
-  // 0: one per core. The answer is the same for any number; where triples are
-  // counted, one does all.
+  // 0: one per core. The result does not depend on the number of threads. With
+  // max_num_triples > 0 only one thread is used.
   int num_threads = 1;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// The matches that pass, in their order. Fewer than three are returned as they
-// are: there is no triple to test them in.
+// Returns the matches that pass, in their order. Fewer than three matches are
+// returned unchanged, because they form no triple.
 std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
                                      const PointsRef& source,
                                      const PointsRef& target,

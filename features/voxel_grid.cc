@@ -43,8 +43,7 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
       (points.rowwise().minCoeff() / voxel_size).array().floor();
   const Eigen::Vector3d last_cell =
       (points.rowwise().maxCoeff() / voxel_size).array().floor();
-  // Each axis by itself: a NaN, as of infinite cells, may get lost in a
-  // maximum.
+  // Each axis is checked, since a maximum may drop a NaN (from infinite cells).
   if (!((last_cell - first_cell).array() < kMaxCells).all()) {
     problem << "the cloud is "
             << (last_cell - first_cell).maxCoeff() * voxel_size

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Voxel sampling: one point per occupied cell of a grid, the mean of those in
-// it.
+// Voxel sampling: replaces the points in each occupied cell of a grid by their
+// mean.
 //
 //   cell(p) = floor(p / voxel_size),   sample(c) = mean { p : cell(p) = c }.
 //
-// The cells are anchored at the origin and come out in the order of their
-// indices (x, then y, then z). Means are summed in fixed point, which is
-// associative: the result depends, bit for bit, on the set of points alone.
+// Cells are anchored at the origin. Samples are ordered by the indices of their
+// cells (x, then y, then z). Means are summed in fixed point, which is
+// associative: the result depends, bit for bit, only on the set of points.
 
 #ifndef QUATRO_FEATURES_VOXEL_GRID_H_
 #define QUATRO_FEATURES_VOXEL_GRID_H_
@@ -19,7 +19,7 @@
 
 namespace quatro {
 
-// `voxel_size` [m]. Returns nullopt and says why in *error if voxel_size is not
+// `voxel_size` [m]. Returns nullopt and sets *error if voxel_size is not
 // positive and finite, a point is not finite, or the cloud is wider than 2^21
 // cells.
 std::optional<Points> SampleVoxels(const PointsRef& points,

@@ -27,7 +27,7 @@ class FileDescriptor {
 
   int get() const { return fd_; }
 
-  // Some file systems only report a full disk here.
+  // Returns false on failure. Some file systems report a full disk only here.
   bool Close() {
     const int fd = fd_;
     fd_ = -1;
@@ -50,11 +50,12 @@ bool WriteAll(int fd, std::string_view bytes) {
     if (written < 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  // EINVAL: a file system that has no disk to flush to.
+  // EINVAL: the file system has no disk to flush to.
   return fsync(fd) == 0 || errno == EINVAL;
 }
 
-// A name that no other process or thread is writing to, and its descriptor.
+// Creates a temporary file that no other process or thread writes to. Returns
+// its descriptor.
 int CreateTemporary(const std::string& path, std::string* temporary) {
   constexpr int kMaxAttempts = 1000;
   int fd = -1;
@@ -72,7 +73,7 @@ int CreateTemporary(const std::string& path, std::string* temporary) {
 
 std::optional<std::string> ReadWholeFile(const std::string& path,
                                          std::string* error) {
-  // Without O_NONBLOCK a pipe would wait here for its writer.
+  // Without O_NONBLOCK, opening a pipe would wait for its writer.
   const FileDescriptor file(
       open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status = {};
@@ -103,7 +104,7 @@ std::optional<std::string> ReadWholeFile(const std::string& path,
       *error = SystemError(path, "cannot read");
       return std::nullopt;
     }
-    if (count == 0) break;  // Someone shortened it meanwhile.
+    if (count == 0) break;  // The file was shortened meanwhile.
     size += static_cast<std::size_t>(count);
   }
   bytes.resize(size);

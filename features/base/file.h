@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Whole files in and out. An error is one line, "<path>: <reason>".
+// Reads and writes whole files. An error is one line, "<path>: <reason>".
 
 #ifndef QUATRO_FEATURES_BASE_FILE_H_
 #define QUATRO_FEATURES_BASE_FILE_H_
@@ -17,11 +17,12 @@ namespace quatro {
 std::optional<std::string> ReadWholeFile(const std::string& path,
                                          std::string* error);
 
-// `path`.tmp.<process>.<number>, flushed to the disk; removed with this object
-// unless it was renamed to `path`.
+// A temporary file next to `path`, named `path`.tmp.<process>.<number> and
+// flushed to the disk. It is removed with this object unless it was renamed to
+// `path`.
 class PendingFile {
  public:
-  // Returns a nullptr and sets *error if it can't be written.
+  // Returns nullptr and sets *error if the file cannot be written.
   static std::unique_ptr<PendingFile> Write(const std::string& path,
                                             std::string_view bytes,
                                             std::string* error);
@@ -29,25 +30,25 @@ class PendingFile {
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
 
-  // Under its name, in place of a file that was there. Returns false and sets
-  // *error if it cannot be.
+  // Renames the file to `path` and replaces a file of that name. Returns false
+  // and sets *error if that fails.
   bool Rename(std::string* error);
 
  private:
   PendingFile() = default;
 
-  std::string path_, temporary_;  // The latter empty: there is none.
+  std::string path_, temporary_;  // temporary_ is empty once renamed.
 };
 
-// Writes a PendingFile and renames it to `path`, which thus holds its old
-// content or all of the new one. On failure removes what it wrote, sets *error
-// and returns false.
+// Writes a PendingFile and renames it to `path`. So `path` has either its old
+// content or all of the new one. On failure, removes the temporary file, sets
+// *error and returns false.
 bool WriteFileAtomically(const std::string& path,
                          std::string_view bytes,
                          std::string* error);
 
-// Removes what WriteFileAtomically() had in `folder` when it was killed. Only
-// while nobody writes there.
+// Removes the temporary files that killed calls of WriteFileAtomically() left
+// in `folder`. Call it only while nobody writes there.
 void RemoveTemporaries(const std::string& folder);
 
 }  // namespace quatro

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Sixteen numbers at once, as pieces of one register each: kBytes is 16, 32 or
-// 64 for SimdLevel::kBaseline, kAvx2 and kAvx512. By the compiler's vectors, of
-// which a loop's vectorizer would not make the best where the loops are short.
+// Sixteen numbers at once, in pieces of one register each. kBytes is 16, 32 or
+// 64 for SimdLevel::kBaseline, kAvx2 and kAvx512. Uses the compiler's vector
+// types, because its loop vectorizer does poorly on short loops.
 //
-// Only to be used in functions inlined into one marked for the level
-// (features/base/simd.h): larger registers have no calling convention below it.
+// Use this only in functions that are inlined into one marked for the level
+// (features/base/simd.h): below the level, larger registers have no calling
+// convention.
 
 #ifndef QUATRO_FEATURES_BASE_LANES_H_
 #define QUATRO_FEATURES_BASE_LANES_H_
@@ -22,10 +23,10 @@ namespace quatro {
 
 constexpr int kLanes = 16;
 
-// Registers of kBytes, and how many of them hold sixteen numbers.
+// Registers of kBytes, and the number of them that hold sixteen numbers.
 template <int kBytes>
 struct Lanes {
-  // A register of each type.
+  // One register of each type.
   using Float __attribute__((vector_size(kBytes), may_alias)) = float;
   using Int __attribute__((vector_size(kBytes), may_alias)) = std::int32_t;
   using Double __attribute__((vector_size(kBytes), may_alias)) = double;
@@ -34,7 +35,7 @@ struct Lanes {
   static constexpr int kPieceLanes = kBytes / 4;
 };
 
-// A row of 16 in memory, aligned to 64 bytes.
+// Sixteen numbers in memory, aligned to 64 bytes.
 struct alignas(64) FloatRow {
   float lane[kLanes];
 };
@@ -57,7 +58,7 @@ QUATRO_SIMD_INLINE const typename Lanes<kBytes>::Int& Piece(const IntRow& row,
   return reinterpret_cast<const typename Lanes<kBytes>::Int*>(row.lane)[piece];
 }
 
-// Both halves of a register as smaller ones.
+// The two halves of a register, as smaller registers.
 template <int kBytes>
 QUATRO_SIMD_INLINE void Halve(const typename Lanes<kBytes>::Int& x,
                               typename Lanes<kBytes / 2>::Int* low,
@@ -71,7 +72,7 @@ QUATRO_SIMD_INLINE void Halve(const typename Lanes<kBytes>::Int& x,
   }
 }
 
-// All lanes, bit by bit.
+// The bitwise or of all lanes.
 template <int kBytes>
 QUATRO_SIMD_INLINE std::int32_t OrOf(const typename Lanes<kBytes>::Int& x) {
   if constexpr (kBytes > 16) {
@@ -85,7 +86,7 @@ QUATRO_SIMD_INLINE std::int32_t OrOf(const typename Lanes<kBytes>::Int& x) {
   }
 }
 
-// The least of all lanes.
+// The smallest lane.
 template <int kBytes>
 QUATRO_SIMD_INLINE std::int32_t MinOf(const typename Lanes<kBytes>::Int& x) {
   if constexpr (kBytes > 16) {
@@ -101,22 +102,23 @@ QUATRO_SIMD_INLINE std::int32_t MinOf(const typename Lanes<kBytes>::Int& x) {
   }
 }
 
-// What the compiler's vectors have no operator for and some levels have one
-// instruction for. Results go to a place given, for the reason above.
+// Operations that the compiler's vectors lack and that some levels have one
+// instruction for. Results are returned through pointers, because registers
+// have no calling convention below their level.
 template <int kBytes>
 struct Instructions {
   // A register.
   using Float = typename Lanes<kBytes>::Float;
 
-  // The larger of each.
+  // The elementwise maximum.
   QUATRO_SIMD_INLINE static void Max(const Float& a,
                                      const Float& b,
                                      Float* max) {
     *max = a > b ? a : b;
   }
 
-  // *sum += a b. Whether the product is rounded first depends on the level: not
-  // for what has to be the same at all of them.
+  // *sum += a b. The level decides whether the product is rounded first. So do
+  // not use it for results that must be the same at all levels.
   QUATRO_SIMD_INLINE static void AddProduct(const Float& a,
                                             const Float& b,
                                             Float* sum) {
@@ -163,7 +165,7 @@ struct Instructions<64> {
   QUATRO_SIMD_AVX512 static void Max(const Float& a,
                                      const Float& b,
                                      Float* max) {
-    // With a mask: GCC 12 takes the plain one's for uninitialized.
+    // Masked, because GCC 12 reports the plain intrinsic as uninitialized.
     *max = _mm512_maskz_max_ps(0xffff, a, b);
   }
   QUATRO_SIMD_AVX512 static void AddProduct(const Float& a,

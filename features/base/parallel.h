@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A loop over several threads whose result can't depend on how many.
+// A loop over several threads whose result cannot depend on the number of
+// threads.
 //
 // body(begin, end) is called on disjoint pieces of [0, n), in any order and by
-// any thread; it writes only what belongs to its piece. std::thread rather than
-// a task library: the loops here run for milliseconds, and thread sanitizers
-// understand it.
+// any thread. It must write only what belongs to its piece. The loop uses
+// std::thread instead of a task library, because loops here run for
+// milliseconds and thread sanitizers understand std::thread.
 //
-// What body throws (std::bad_alloc) comes out of the loop, on the caller's
-// thread, once all threads have ended. A thread that can't be started is done
-// without.
+// An exception from body (std::bad_alloc) is rethrown on the caller's thread
+// once all threads have ended. If a thread cannot be started, the loop runs
+// with fewer.
 
 #ifndef QUATRO_FEATURES_BASE_PARALLEL_H_
 #define QUATRO_FEATURES_BASE_PARALLEL_H_
@@ -25,13 +26,13 @@
 
 namespace quatro {
 
-// `num_threads` 0 stands for as many as the machine has.
+// The number of threads to use. If `num_threads` is 0, one per core.
 inline int NumThreadsToUse(int num_threads) {
   if (num_threads > 0) return num_threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-// Calls `body` on all pieces of [0, n) of the given size.
+// Calls `body` on all pieces of [0, n); each has size `piece`, except the last.
 template <typename Body>
 void ParallelFor(int num_threads,
                  Eigen::Index n,
@@ -63,7 +64,7 @@ void ParallelFor(int num_threads,
   if (failure) std::rethrow_exception(failure);
 }
 
-// Two things at once, if there are two threads.
+// Runs both functions, at the same time if there are two threads.
 template <typename First, typename Second>
 void ParallelDo(int num_threads, const First& first, const Second& second) {
   ParallelFor(num_threads, 2, 1, [&](Eigen::Index begin, Eigen::Index end) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Numbers by their keys in ascending order, equal keys in the order they came
-// in: 11 bits at a time from the lowest up, in time proportional to both.
+// A stable radix sort in ascending order of keys: 11 bits at a time from the
+// lowest up, in time proportional to the number of items times the number of
+// bits.
 
 #ifndef QUATRO_FEATURES_BASE_RADIX_SORT_H_
 #define QUATRO_FEATURES_BASE_RADIX_SORT_H_
@@ -15,13 +16,13 @@
 
 namespace quatro {
 
-// A number and what it is sorted by.
+// An index and the key that it is sorted by.
 struct KeyedIndex {
   std::uint64_t key;
   std::int32_t index;
 };
 
-// Keys are below 2^num_bits.
+// Sorts *keyed. Keys must be below 2^num_bits.
 inline void RadixSort(int num_bits, ZeroedVector<KeyedIndex>* keyed) {
   constexpr int kDigitBits = 11;
   constexpr std::uint64_t kMask = (1 << kDigitBits) - 1;

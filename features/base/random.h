@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Randomness by counting: the k-th draw of a seed is a pure function of both,
-// so results depend on neither threads, nor order, nor the standard library.
+// Counter-based random numbers. The k-th draw of a seed is a pure function of
+// seed and k, so results depend neither on threads, nor on order, nor on the
+// standard library.
 //
 // Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
 // Generators", OOPSLA 2014 (SplitMix64).
@@ -21,7 +22,7 @@ inline std::uint64_t Mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Numbers of a seed, one after another.
+// The sequence of random numbers of a seed.
 class Random {
  public:
   // The same seed gives the same numbers.
@@ -30,7 +31,7 @@ class Random {
   // The next 64 bits.
   std::uint64_t Next() { return Mix(state_++); }
 
-  // As if so many had been drawn.
+  // Skips this many draws.
   void Skip(std::uint64_t num_draws) { state_ += num_draws; }
 
   // Uniform in [0, n), n >= 1. The bias is below n / 2^64.

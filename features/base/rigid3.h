@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A rigid motion, named after what it does to coordinates:
+// A rigid transformation, named after what it does to coordinates:
 //
 //   x_in_target = target_from_source * x_in_source = R x_in_source + t.     (1)
 //
@@ -31,31 +31,32 @@ struct Rigid3 {
     return matrix;
   }
 
-  // All points moved.
+  // Transforms all points.
   Points Apply(const PointsRef& points) const {
     return (rotation * points).colwise() + translation;
   }
 };
 
-// The point in frame b.
+// Transforms the point from frame a to frame b.
 inline Eigen::Vector3d operator*(const Rigid3& b_from_a,
                                  const Eigen::Vector3d& x_in_a) {
   return b_from_a.rotation * x_in_a + b_from_a.translation;
 }
 
-// First the right one, then the left one.
+// Applies b_from_a first, then c_from_b.
 inline Rigid3 operator*(const Rigid3& c_from_b, const Rigid3& b_from_a) {
   return {c_from_b.rotation * b_from_a.rotation,
           c_from_b * b_from_a.translation};
 }
 
-// The way back, a_from_b.
+// The inverse, a_from_b.
 inline Rigid3 Inverse(const Rigid3& b_from_a) {
   const Eigen::Matrix3d a_from_b = b_from_a.rotation.transpose();
   return {a_from_b, -(a_from_b * b_from_a.translation)};
 }
 
-// Counter-clockwise turn by `yaw` [rad] about z, which it leaves bit for bit.
+// Counter-clockwise rotation by `yaw` [rad] about z. Leaves z coordinates
+// unchanged, bit for bit.
 inline Eigen::Matrix3d RotationZ(double yaw) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() << std::cos(yaw), -std::sin(yaw),
@@ -68,8 +69,8 @@ inline double Yaw(const Eigen::Matrix3d& rotation) {
   return std::atan2(rotation(1, 0), rotation(0, 0));
 }
 
-// Angle of the rotation between two. [rad], in [0, pi]. By the skew part where
-// the trace has lost its digits, so that small angles are exact.
+// The angle of the rotation between a and b [rad], in [0, pi]. Uses the skew
+// part, because the trace loses the digits of small angles.
 inline double AngleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   const Eigen::Matrix3d a_from_b = a.transpose() * b;
   const Eigen::Vector3d skew(a_from_b(2, 1) - a_from_b(1, 2),

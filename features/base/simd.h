@@ -1,25 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One function compiled for several instruction sets, chosen when the program
-// starts, so that one portable build runs at each machine's width.
+// Compiles one function for several instruction sets. The choice is made when
+// the program starts, so one portable build uses the full register width of
+// each machine.
 //
-// All paths give the same bits: contraction into fused multiply-add is off for
-// the whole library (third_party/target.cmake), and a loop so marked must not
-// reduce floating-point numbers across lanes.
+// All paths give the same bits. For this, contraction into fused multiply-add
+// is off for the whole library (third_party/target.cmake), and a marked loop
+// must not reduce floating-point numbers across lanes.
 //
-// Either the compiler chooses (QUATRO_SIMD_CLONES, for plain loops), or the
-// caller does, by SimdLevel, for code written in features/base/lanes.h; tests
-// then take each path in turn.
+// The compiler makes the choice for plain loops (QUATRO_SIMD_CLONES). The
+// caller makes it, by SimdLevel, for code written with features/base/lanes.h;
+// tests run every level of it.
 
 #ifndef QUATRO_FEATURES_BASE_SIMD_H_
 #define QUATRO_FEATURES_BASE_SIMD_H_
 
-// The sanitizers' start-up comes after the choice, which they would break. They
-// pass these loops over: arithmetic on arrays of constant sizes, which they
-// would slow down twentyfold.
+// The choice is made before the sanitizers start, which would break it. Marked
+// loops are not sanitized: they are arithmetic on arrays of constant sizes, and
+// sanitizers would slow them down by a factor of twenty.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define QUATRO_NO_SANITIZE __attribute__((no_sanitize("address", "undefined")))
-#elif defined(__has_feature)  // Clang's; Eigen's, for GCC, denies everything.
+#elif defined(__has_feature)  // Clang only; not Eigen's stub for GCC.
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define QUATRO_NO_SANITIZE __attribute__((no_sanitize("address", "undefined")))
 #endif
@@ -34,7 +35,7 @@
 #define QUATRO_SIMD_CLONES
 #endif
 
-// A part of such a function. Inlined into each of its clones.
+// A part of a marked function, inlined into each of its clones.
 #if defined(QUATRO_NO_SANITIZE)
 #define QUATRO_SIMD_INLINE \
   inline __attribute__((always_inline)) QUATRO_NO_SANITIZE
@@ -42,7 +43,7 @@
 #define QUATRO_SIMD_INLINE inline __attribute__((always_inline))
 #endif
 
-// A function for one level alone, to be called only where it is supported.
+// A function for one level. Call it only if the level is supported.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
 #define QUATRO_SIMD_AVX2 __attribute__((target("arch=x86-64-v3")))
 #define QUATRO_SIMD_AVX512 __attribute__((target("arch=x86-64-v4")))
@@ -53,10 +54,10 @@
 
 namespace quatro {
 
-// Instruction sets, each with all of those before it.
+// Instruction sets. Each includes those before it.
 enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
 
-// What this machine and this build have.
+// The best level that both this machine and this build support.
 inline SimdLevel BestSimdLevel() {
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
   if (__builtin_cpu_supports("x86-64-v4")) return SimdLevel::kAvx512;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How long each stage of a computation took.
+// The run time of each stage of a computation.
 
 #ifndef QUATRO_FEATURES_BASE_STOPWATCH_H_
 #define QUATRO_FEATURES_BASE_STOPWATCH_H_
@@ -10,16 +10,16 @@
 
 namespace quatro {
 
-// A stage, and how long it took.
+// A stage and its run time.
 struct StageTime {
   std::string stage;
   double seconds = 0.0;
 };
 
-// Laps on the steady clock.
+// A stopwatch on the steady clock.
 class Stopwatch {
  public:
-  // The time since the last lap, or since the start.
+  // The time since the last lap or, for the first lap, since construction [s].
   double Lap() {
     const auto now = Clock::now();
     const std::chrono::duration<double> elapsed = now - last_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Shapes shared by every folder. Nothing here has behaviour.
+// Types that all folders share. They have no behavior.
 
 #ifndef QUATRO_FEATURES_BASE_TYPES_H_
 #define QUATRO_FEATURES_BASE_TYPES_H_

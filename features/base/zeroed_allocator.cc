@@ -16,12 +16,14 @@ namespace {
 #if defined(__linux__)
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-// In huge pages, the last of which is three quarters full.
+// The part of `num_bytes` to put into huge pages. The last of them is at least
+// three quarters full.
 std::size_t BytesInHugePages(std::size_t num_bytes) {
   return (num_bytes + kHugePage / 4) / kHugePage * kHugePage;
 }
 
-// A size of whole huge pages is placed where one begins (Linux 6.7 on).
+// Rounds up to whole huge pages. Linux 6.7 and later align mappings of such
+// sizes to huge pages.
 std::size_t InWholePages(std::size_t num_bytes) {
   return (num_bytes + kHugePage - 1) / kHugePage * kHugePage;
 }
@@ -30,7 +32,7 @@ std::size_t InWholePages(std::size_t num_bytes) {
 }  // namespace
 
 void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
-  // So that what follows can be rounded up.
+  // Keeps the rounding up below from overflowing.
   constexpr std::size_t kLargest = std::numeric_limits<std::size_t>::max() / 2;
   if (num_bytes > kLargest) throw std::bad_alloc();
 #if defined(__linux__)
@@ -42,7 +44,7 @@ void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment) {
                         -1,
                         0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
-    madvise(memory, huge, MADV_HUGEPAGE);  // Advice: it may say no.
+    madvise(memory, huge, MADV_HUGEPAGE);  // Only advice; failure is harmless.
     return memory;
   }
 #endif

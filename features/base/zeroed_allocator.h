@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// For large vectors of numbers that start at zero and are written once: fresh
-// memory from the system is zero already, and need not be written twice.
+// An allocator for large vectors of numbers that start at zero and are written
+// once. Fresh memory from the system is already zero, so it is not cleared
+// again.
 //
-// What fills huge pages of 2 MiB, the last by three quarters, is asked for in
-// such pages where the system has them. The first write to a page is a fault,
-// which for one of 4 KiB takes longer than to write it; and rows that lie far
-// apart stay within reach of the processor's table of pages.
+// Sizes that fill huge pages of 2 MiB, the last one to three quarters, are
+// requested in huge pages if the system has them. The first write to a page
+// causes a page fault, which takes longer than writing a page of 4 KiB. Huge
+// pages also keep rows that lie far apart within reach of the processor's TLB.
 
 #ifndef QUATRO_FEATURES_BASE_ZEROED_ALLOCATOR_H_
 #define QUATRO_FEATURES_BASE_ZEROED_ALLOCATOR_H_
@@ -21,21 +22,22 @@
 
 namespace quatro {
 
-// Throws std::bad_alloc. `alignment` of no more than a page.
+// Returns memory that is zero. Throws std::bad_alloc. `alignment` is at most a
+// page.
 void* AllocateZeroed(std::size_t num_bytes, std::size_t alignment);
 
-// Of as many bytes as were allocated.
+// Frees memory of AllocateZeroed(). `num_bytes` is the number that was
+// allocated.
 void FreeZeroed(void* memory, std::size_t num_bytes) noexcept;
 
-// Of a vector that is never made smaller, of what is T() if all of its bytes
-// are zero.
+// For vectors that never shrink, of types T for which all bytes zero is T().
 template <typename T>
 struct ZeroedAllocator {
   static_assert(std::is_trivially_copyable_v<T>);
   using value_type = T;
 
   ZeroedAllocator() = default;
-  // From that of another type; there is nothing to copy.
+  // Converts from the allocator of another type. There is no state to copy.
   template <typename U>
   explicit ZeroedAllocator(const ZeroedAllocator<U>&) {}
 
@@ -49,7 +51,7 @@ struct ZeroedAllocator {
     FreeZeroed(memory, n * sizeof(T));
   }
 
-  void construct(T*) {}  // T() is what is there.
+  void construct(T*) {}  // The memory already holds T().
   template <typename... Args>
   void construct(T* element, Args&&... args) {
     std::construct_at(element, std::forward<Args>(args)...);
@@ -58,7 +60,7 @@ struct ZeroedAllocator {
   bool operator==(const ZeroedAllocator&) const { return true; }
 };
 
-// Starts at T().
+// A vector whose elements start as T().
 template <typename T>
 using ZeroedVector = std::vector<T, ZeroedAllocator<T>>;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What PLY and PCD have in common: rows of typed numbers, some of which are
-// the x, y, z and intensity of a point.
+// Parts shared by PLY and PCD: rows of typed numbers, some of which are the x,
+// y, z and intensity of a point.
 
 #ifndef QUATRO_FEATURES_IO_CLOUD_FIELDS_H_
 #define QUATRO_FEATURES_IO_CLOUD_FIELDS_H_
@@ -19,7 +19,7 @@
 
 namespace quatro {
 
-// The types a number of a file can have.
+// The types of numbers in a file.
 enum class ScalarType {
   kInt8,
   kUint8,
@@ -33,37 +33,39 @@ enum class ScalarType {
   kFloat64,
 };
 
-// [bytes]
+// The size of the type in bytes.
 std::size_t SizeOf(ScalarType type);
 
 // Reads SizeOf(type) bytes, aligned or not.
 double DecodeScalar(const char* bytes, ScalarType type, std::endian order);
 
-// Writes the number's bytes, the lowest first.
+// Appends the bytes of the number, lowest first.
 void AppendLittleEndian(float value, std::string* bytes);
 void AppendLittleEndian(double value, std::string* bytes);
 
-// Which fields of a row are x, y, z and intensity. Only the last may be absent.
+// The fields of a row that are x, y, z and intensity. Only the intensity may be
+// missing.
 using CloudColumns = std::array<std::optional<std::size_t>, 4>;
 
-// `names` has one entry a field, empty where the field is not a single number.
-// Sets *error if there is not exactly one x, y and z. The first of
-// "intensity", "scalar_intensity", "scalar_Intensity" and "reflectance" that
-// occurs is the intensity.
+// `names` has one entry per field, which is empty if the field is not a single
+// number. Returns nullopt and sets *error unless there is exactly one x, y and
+// z. The intensity is the first of "intensity", "scalar_intensity",
+// "scalar_Intensity" and "reflectance" that occurs.
 std::optional<CloudColumns> FindCloudColumns(
     const std::vector<std::string_view>& names, std::string* error);
 
-// Collects rows, of which it keeps the finite ones.
+// Collects the rows of a file and keeps the finite points.
 class CloudBuilder {
  public:
-  // `max_num_points` are allocated at once: callers hold it against the size
+  // Allocates `max_num_points` at once, so check this number against the size
   // of the file first.
   CloudBuilder(std::uint64_t max_num_points, bool has_intensity);
 
-  // At most max_num_points times. `row` is x, y, z, intensity.
+  // Adds a row x, y, z, intensity. Call this at most max_num_points times.
   void Add(const std::array<double, 4>& row);
 
-  // Sets *error if no point is left. The builder is empty afterwards.
+  // Returns nullopt and sets *error if there is no finite point. The builder is
+  // empty afterwards.
   std::optional<PointCloud> Build(std::string* error);
 
  private:

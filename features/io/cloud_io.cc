@@ -16,7 +16,7 @@
 namespace quatro {
 namespace {
 
-// In lower case and with its dot; empty if the file name has none.
+// The extension in lower case, with its dot. Empty if the file name has none.
 std::string Ending(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
   const std::size_t dot = path.find_last_of('.');
@@ -38,7 +38,7 @@ std::optional<PointCloud> Parse(std::string_view ending,
   return ParsePcd(bytes, error);
 }
 
-// What ReadCloud would not read back is not written.
+// Only clouds that ReadCloud() would read back are written.
 bool IsWritable(const PointCloud& cloud, std::string* error) {
   if (cloud.points.cols() == 0) {
     *error = "points: there are none";

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Words and numbers in the text parts of cloud files, whatever the locale.
+// Words and numbers in the text parts of cloud files, independent of the
+// locale.
 
 #ifndef QUATRO_FEATURES_IO_CLOUD_TEXT_H_
 #define QUATRO_FEATURES_IO_CLOUD_TEXT_H_
@@ -18,17 +19,18 @@ std::string_view TakeLine(std::string_view* text);
 // Removes the first word from *line and returns it; empty if there is none.
 std::string_view TakeWord(std::string_view* line);
 
-// Lines with at least one word.
+// The number of lines with at least one word.
 std::uint64_t CountLines(std::string_view text);
 
-// The whole word as a decimal number, "nan" or "inf", with or without a sign.
-// nullopt also for what a double is too small or too large to hold.
+// Parses the whole word as a decimal number, "nan" or "inf", with or without a
+// sign. Returns nullopt for anything else, and for numbers outside the range of
+// a double.
 std::optional<double> ParseNumber(std::string_view word);
 
-// The whole word as a number of things: digits only.
+// Parses the whole word as a count: digits only.
 std::optional<std::uint64_t> ParseCount(std::string_view word);
 
-// For error messages: in quotes, shortened, on one line and printable.
+// The word in quotes for an error message: shortened, printable, on one line.
 std::string Quoted(std::string_view word);
 
 }  // namespace quatro

@@ -13,12 +13,13 @@
 
 namespace quatro {
 
-// Sets *error, without a path, if there is no cloud in `bytes`.
+// Returns nullopt and sets *error, without a path, if `bytes` contain no cloud.
 std::optional<PointCloud> ParseKittiBin(std::string_view bytes,
                                         std::string* error);
 
-// Coordinates are rounded to float32; a cloud without intensity gets zeros.
-// Sets *error if a coordinate is beyond the range of float32.
+// Coordinates are rounded to float32. If the cloud has no intensity, zeros are
+// written. Returns nullopt and sets *error if a coordinate is outside the range
+// of float32.
 std::optional<std::string> FormatKittiBin(const PointCloud& cloud,
                                           std::string* error);
 

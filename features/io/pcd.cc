@@ -36,7 +36,8 @@ std::optional<CloudColumns> FindColumns(const PcdHeader& header,
   return columns;
 }
 
-// One line of an ascii file. Returns false with a *reason.
+// Parses one line of an ascii file. Returns false and sets *reason if it is
+// malformed.
 bool ParseRow(std::string_view line,
               const std::vector<std::optional<std::size_t>>& slots,
               const PcdHeader& header,
@@ -94,8 +95,8 @@ std::optional<PointCloud> ReadAscii(const PcdHeader& header,
   return builder.Build(error);
 }
 
-// `bytes` holds all of header.num_points, either row by row or field by field:
-// all x before all y.
+// `bytes` has all header.num_points points, either row by row or field by field
+// (all x before all y).
 std::optional<PointCloud> ReadBinary(const PcdHeader& header,
                                      const CloudColumns& columns,
                                      std::string_view bytes,
@@ -124,7 +125,8 @@ std::uint64_t DecodeSize(std::string_view bytes, std::size_t start) {
       bytes.data() + start, ScalarType::kUint32, std::endian::little));
 }
 
-// `bytes` is the compressed size, the decompressed size, the compressed data.
+// `bytes` are the compressed size, the decompressed size and the compressed
+// data.
 std::optional<std::string> Decompress(const PcdHeader& header,
                                       std::string_view bytes,
                                       std::string* error) {
@@ -143,7 +145,7 @@ std::optional<std::string> Decompress(const PcdHeader& header,
              "; is the file truncated?";
     return std::nullopt;
   }
-  // Division first, as the product may overflow.
+  // Divides first, because the product may overflow.
   if (header.num_points > size / header.row_size ||
       header.num_points * header.row_size != size) {
     *error = place + std::to_string(size) + " bytes are not " +
@@ -151,7 +153,7 @@ std::optional<std::string> Decompress(const PcdHeader& header,
              std::to_string(header.row_size) + " bytes";
     return std::nullopt;
   }
-  // LZF makes at most 264 bytes of 3.
+  // LZF decompresses 3 bytes to at most 264.
   constexpr std::uint64_t kMaxRatio = 88;
   std::string data;
   if (size <= kMaxRatio * compressed_size) {
@@ -190,7 +192,7 @@ std::optional<PointCloud> ParsePcd(std::string_view bytes, std::string* error) {
     return ReadBinary(
         *header, *columns, *data, /*is_field_by_field=*/true, error);
   }
-  // More is fine: PCL used to pad its files to whole pages.
+  // Extra bytes are accepted, because PCL used to pad files to whole pages.
   const std::uint64_t num_held = bytes.size() / header->row_size;
   if (header->num_points > num_held) {
     *error = WrongNumPoints(*header, num_held);

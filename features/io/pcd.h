@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // PCD 0.6 and 0.7: ascii, binary and binary_compressed.
 //
-// A point is one row with fields x, y, z of any type and COUNT 1, and
-// optionally an intensity (see FindCloudColumns). All other fields are skipped.
+// A point is one row with fields x, y, z of any type and COUNT 1, and an
+// optional intensity (see FindCloudColumns). All other fields are skipped.
 // VIEWPOINT is ignored: points stay in the frame in which they were stored.
 
 #ifndef QUATRO_FEATURES_IO_PCD_H_
@@ -17,11 +17,12 @@
 
 namespace quatro {
 
-// Sets *error, without a path, if there is no cloud in `bytes`.
+// Returns nullopt and sets *error, without a path, if `bytes` contain no cloud.
 std::optional<PointCloud> ParsePcd(std::string_view bytes, std::string* error);
 
-// Binary, float32 x y z and, where there is one, intensity: coordinates are
-// rounded. Sets *error if one is beyond the range of float32.
+// Writes binary float32 x y z and, if the cloud has one, intensity. Coordinates
+// are rounded. Returns nullopt and sets *error if one is outside the range of
+// float32.
 std::optional<std::string> FormatPcd(const PointCloud& cloud,
                                      std::string* error);
 

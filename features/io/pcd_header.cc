@@ -26,7 +26,7 @@ Words SplitWords(std::string_view line) {
   }
 }
 
-// Up to and including DATA.
+// Reads the entries up to and including DATA.
 std::optional<Entries> TakeEntries(std::string_view* bytes,
                                    std::string* error) {
   constexpr std::array<std::string_view, 10> kNames = {"VERSION",
@@ -71,7 +71,7 @@ std::optional<ScalarType> ParseType(std::string_view type,
   return std::nullopt;
 }
 
-// FIELDS, SIZE, TYPE and COUNT.
+// Parses FIELDS, SIZE, TYPE and COUNT.
 bool ParseFields(Entries* entries, PcdHeader* header, std::string* error) {
   const Words& names = (*entries)["FIELDS"];
   const Words& sizes = (*entries)["SIZE"];
@@ -110,8 +110,8 @@ bool ParseFields(Entries* entries, PcdHeader* header, std::string* error) {
   return true;
 }
 
-// The number after WIDTH, HEIGHT or POINTS. There is none without an *error if
-// the entry is missing.
+// The number after WIDTH, HEIGHT or POINTS. Returns nullopt without setting
+// *error if the entry is missing.
 std::optional<std::uint64_t> FindCount(const Entries& entries,
                                        std::string_view name,
                                        std::string* error) {
@@ -128,7 +128,7 @@ std::optional<std::uint64_t> FindCount(const Entries& entries,
   return count;
 }
 
-// WIDTH, HEIGHT and POINTS, of which the first two or the last may be missing.
+// The number of points from WIDTH and HEIGHT, from POINTS, or from all three.
 std::optional<std::uint64_t> ParseNumPoints(const Entries& entries,
                                             std::string* error) {
   error->clear();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The header of a PCD file, as text that the caller keeps.
+// The header of a PCD file. Its strings refer to the text, which the caller
+// owns.
 
 #ifndef QUATRO_FEATURES_IO_PCD_HEADER_H_
 #define QUATRO_FEATURES_IO_PCD_HEADER_H_
@@ -19,11 +20,11 @@ namespace quatro {
 struct PcdField {
   std::string_view name;  // "_" is padding.
   ScalarType type;
-  std::uint64_t count = 1;   // Values a point.
+  std::uint64_t count = 1;   // Values per point.
   std::uint64_t offset = 0;  // In a row [bytes].
 };
 
-// What a PCD file holds, and how.
+// The layout of a PCD file.
 struct PcdHeader {
   std::vector<PcdField> fields;
   std::uint64_t row_size = 0;  // [bytes], below 2^32.
@@ -33,8 +34,9 @@ struct PcdHeader {
   std::string_view data;
 };
 
-// Removes the header from *bytes, which then starts with the first row. Sets
-// *error if it is malformed; whether the rows are there is not looked at.
+// Removes the header from *bytes, which then starts with the first row. Returns
+// nullopt and sets *error if the header is malformed. Does not check whether
+// the rows exist.
 std::optional<PcdHeader> TakePcdHeader(std::string_view* bytes,
                                        std::string* error);
 

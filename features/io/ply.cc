@@ -106,9 +106,9 @@ std::optional<PointCloud> ReadCloudFrom(const PlyHeader& header,
     if (is_vertex && !(columns = FindColumns(element, error))) {
       return std::nullopt;
     }
-    if (element.properties.empty()) continue;  // Rows of nothing.
+    if (element.properties.empty()) continue;  // Its rows have no data.
 
-    // First of all, as the number of rows may be anything.
+    // Checked before anything is allocated, because num_rows may be any number.
     const std::uint64_t max_num_rows = rows.MaxNumRows(element.properties);
     if (element.num_rows > max_num_rows) {
       *error = TooFewRows(element, max_num_rows, HasList(element));
@@ -130,7 +130,7 @@ std::optional<PointCloud> ReadCloudFrom(const PlyHeader& header,
         })) {
       return std::nullopt;
     }
-    return builder.Build(error);  // What follows does not matter.
+    return builder.Build(error);  // Later elements are not needed.
   }
   *error = "header: has no element vertex";
   return std::nullopt;

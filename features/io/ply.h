@@ -3,7 +3,7 @@
 // PLY, ascii or binary of either byte order.
 //
 // A point is one row of the element "vertex" with scalar properties x, y, z of
-// any type, and optionally an intensity (see FindCloudColumns). All other
+// any type, and an optional intensity (see FindCloudColumns). All other
 // properties and elements are skipped.
 
 #ifndef QUATRO_FEATURES_IO_PLY_H_
@@ -17,10 +17,11 @@
 
 namespace quatro {
 
-// Sets *error, without a path, if there is no cloud in `bytes`.
+// Returns nullopt and sets *error, without a path, if `bytes` contain no cloud.
 std::optional<PointCloud> ParsePly(std::string_view bytes, std::string* error);
 
-// Binary little-endian: double x y z, float intensity if there is one.
+// Writes binary little-endian double x y z and, if the cloud has one, float
+// intensity.
 std::string FormatPly(const PointCloud& cloud);
 
 }  // namespace quatro

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The header of a PLY file, as text that the caller keeps.
+// The header of a PLY file. Its strings refer to the text, which the caller
+// owns.
 
 #ifndef QUATRO_FEATURES_IO_PLY_HEADER_H_
 #define QUATRO_FEATURES_IO_PLY_HEADER_H_
@@ -15,21 +16,21 @@
 
 namespace quatro {
 
-// One number, or one list of them, of a row.
+// A property of a row: one number or a list of numbers.
 struct PlyProperty {
   std::string_view name;
   ScalarType type;
-  std::optional<ScalarType> length_type;  // Of a list.
+  std::optional<ScalarType> length_type;  // Set for a list.
 };
 
-// Rows of the same properties.
+// An element: rows with the same properties.
 struct PlyElement {
   std::string_view name;
   std::uint64_t num_rows = 0;
   std::vector<PlyProperty> properties;
 };
 
-// What a PLY file holds, and how.
+// The layout of a PLY file.
 struct PlyHeader {
   // One of "ascii", "binary_little_endian", "binary_big_endian".
   std::string_view format;
@@ -37,8 +38,9 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-// Removes the header from *bytes, which then starts with the first row. Sets
-// *error if it is malformed; whether the rows are there is not looked at.
+// Removes the header from *bytes, which then starts with the first row. Returns
+// nullopt and sets *error if the header is malformed. Does not check whether
+// the rows exist.
 std::optional<PlyHeader> TakePlyHeader(std::string_view* bytes,
                                        std::string* error);
 

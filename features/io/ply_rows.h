@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The rows of a PLY file, value by value, as bytes and as text.
+// Reads the rows of a PLY file value by value, from bytes or from text.
 //
-// Both classes have the same members. MaxNumRows() is an upper bound from what
-// is left of the file, exact unless there are lists or further elements.
-// The other functions return false at the end of the data, or with a *reason
-// if they dislike it.
+// Both classes have the same members. MaxNumRows() is an upper bound derived
+// from the remaining size of the file. It is exact unless there are lists or
+// further elements. The other functions return false at the end of the data,
+// and false with a *reason if the data are invalid.
 
 #ifndef QUATRO_FEATURES_IO_PLY_ROWS_H_
 #define QUATRO_FEATURES_IO_PLY_ROWS_H_
@@ -24,14 +24,14 @@
 
 namespace quatro {
 
-// Rows as bytes in the given order.
+// Rows as bytes in the given byte order.
 class BinaryPlyRows {
  public:
   // `bytes` must outlive this.
   BinaryPlyRows(std::string_view bytes, std::endian order)
       : bytes_(bytes), order_(order) {}
 
-  // The properties are one or more.
+  // `properties` must not be empty.
   std::uint64_t MaxNumRows(std::span<const PlyProperty> properties) const {
     std::size_t min_size = 0;
     for (const PlyProperty& property : properties) {
@@ -52,7 +52,7 @@ class BinaryPlyRows {
   bool TakeLength(ScalarType type, std::uint64_t* length, std::string* reason) {
     double value = 0.0;
     if (!Take(type, &value, reason)) return false;
-    // Longer than any file; also, every length below is exact as a double.
+    // No file has a list this long. Lengths below this are exact as a double.
     constexpr double kTooLong = 4503599627370496.0;
     if (!(value >= 0.0 && value < kTooLong)) {
       *reason = "a list has an impossible length";
@@ -75,7 +75,7 @@ class BinaryPlyRows {
   std::endian order_;
 };
 
-// One line a row.
+// Rows as text, one line per row.
 class TextPlyRows {
  public:
   // `text` must outlive this.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One scan as it was read: finite points and how many were not.
+// One scan as read from a file: its finite points, and the number of others.
 
 #ifndef QUATRO_FEATURES_IO_POINT_CLOUD_H_
 #define QUATRO_FEATURES_IO_POINT_CLOUD_H_
@@ -16,7 +16,7 @@ struct PointCloud {
   Points points;              // [m], all finite.
   Eigen::VectorXf intensity;  // Empty, or one number per point.
 
-  // Points left out for a NaN or infinite coordinate.
+  // The number of points dropped because of a NaN or infinite coordinate.
   Eigen::Index num_dropped = 0;
 };
 

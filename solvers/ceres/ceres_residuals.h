@@ -4,9 +4,9 @@
 //
 //   r = sqrt(w) (q - R p - t),     its squared norm w || q - R p - t ||^2,  (1)
 //
-// with R held as the numbers of a group: TurnAboutZ or Turn. A group says how
-// to rotate a point, Rotate(), and how its numbers change, to second order in
-// delta, when R -> exp([delta]x) R, Perturb().
+// where R is stored as the numbers of a group, TurnAboutZ or Turn. A group
+// defines how to rotate a point, Rotate(), and how its numbers change when R ->
+// exp([delta]x) R, to second order in delta, Perturb().
 
 #ifndef QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_
 #define QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_
@@ -23,7 +23,7 @@
 
 namespace quatro {
 
-// R_z(a), held as (cos a, sin a).
+// R_z(a), stored as (cos a, sin a).
 struct TurnAboutZ {
   static constexpr int kSize = 2;
   static constexpr int kFreedoms = 1;
@@ -40,7 +40,7 @@ struct TurnAboutZ {
   }
 };
 
-// Any rotation, held as a unit quaternion in Eigen's order (x, y, z, w).
+// Any rotation, stored as a unit quaternion in Eigen's order (x, y, z, w).
 struct Turn {
   static constexpr int kSize = 4;
   static constexpr int kFreedoms = 3;
@@ -52,7 +52,7 @@ struct Turn {
   }
 
   // exp = (sin(|delta| / 2) delta / |delta|, cos(|delta| / 2)) to second order,
-  // which jets can take at zero, too.
+  // in a form that jets can evaluate at zero.
   template <typename T>
   static void Perturb(const T* r, const T* delta, T* perturbed) {
     const T x = delta[0] * Constant<T>(0.5);
@@ -65,7 +65,7 @@ struct Turn {
   }
 };
 
-// (1), for Ceres or ComputeSecondDerivative() to differentiate.
+// Equation (1), to be differentiated by Ceres or ComputeSecondDerivative().
 template <typename Group>
 struct PairResidual {
   using CostFunction =
@@ -89,10 +89,10 @@ struct PairResidual {
   double sqrt_weight = 1.0;
 };
 
-// (1) for a turn about z, differentiated by hand.
+// Equation (1) for a rotation about z, with analytic derivatives.
 class AnalyticYawResidual final : public ceres::SizedCostFunction<3, 2, 3> {
  public:
-  // Of the same pair as the automatic one.
+  // Takes the pair of the automatically differentiated residual.
   explicit AnalyticYawResidual(const PairResidual<TurnAboutZ>& pair)
       : pair_(pair) {}
 

@@ -20,16 +20,16 @@ namespace {
 
 constexpr int kMaxNewtonSteps = 5;
 
-// R as the numbers of its group, and u of the pairs' x -> R x + u.
+// R as the numbers of its group, and the u of x -> R x + u.
 template <typename Group>
 struct Motion {
   Eigen::Vector<double, Group::kSize> rotation;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 };
 
-// The problem as Ceres gets it. Pairs without weight are left out, the weights
-// divided by their sum (Ceres' gradient tolerance has a unit), and the clouds
-// moved: x - source_origin -> y - target_origin.
+// The problem as given to Ceres. Pairs without weight are left out. Weights are
+// divided by their sum, because Ceres' gradient tolerance has a unit. Clouds
+// are moved to new origins, x - source_origin -> y - target_origin.
 template <typename Group>
 struct PairProblem {
   std::vector<PairResidual<Group>> pairs;
@@ -55,10 +55,10 @@ PairProblem<Group> MakeProblem(const PointsRef& source,
   return problem;
 }
 
-// For when the translation is free: any origins would do for the minimum, and
-// these keep the digits. Of the source it is the weighted mean, about which
-// `curvature` is asked for; of the target a plain one, lest t = 0 be the
-// answer.
+// Moves the origins if the translation is free. The minimum does not depend on
+// them, but its digits do. The source's origin is the weighted mean, about
+// which `curvature` is defined. The target's is the plain mean, so that t = 0
+// is not already the solution.
 template <typename Group>
 void MoveOrigins(PairProblem<Group>& problem) {
   if (problem.pairs.empty()) return;
@@ -81,8 +81,8 @@ void MoveOrigins(PairProblem<Group>& problem) {
   problem.target_origin = target_guess + target_mean;
 }
 
-// Of the mean cost, for R -> exp(delta) R in the first places and, if they are
-// more, shift -> shift + tau in the others.
+// The derivatives of the mean cost for R -> exp(delta) R in the first places
+// and, if N > kFreedoms, shift -> shift + tau in the others.
 template <int N, typename Group>
 SecondDerivative<N> DerivativeAt(const PairProblem<Group>& problem,
                                  const Motion<Group>& motion) {
@@ -119,7 +119,7 @@ struct Minimum {
   Eigen::Matrix<double, N, N> curvature;
 };
 
-// N > Group::kFreedoms sets the shift free. `make_cost` allocates for Ceres.
+// The shift is free if N > Group::kFreedoms. `make_cost` allocates for Ceres.
 template <int N, typename Group, typename MakeCost>
 Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
                            const std::vector<Motion<Group>>& starts,
@@ -141,7 +141,8 @@ Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
   options.function_tolerance = 0.0;
   options.gradient_tolerance = 1e-15;
   options.parameter_tolerance = 1e-15;
-  // Where the cost has no more digits, steps are invalid: not a failure.
+  // Steps are invalid once the digits of the cost are exhausted. That is no
+  // failure.
   options.max_num_consecutive_invalid_steps = options.max_num_iterations;
   options.logging_type = ceres::SILENT;
   for (const Motion<Group>& start : starts) {
@@ -210,14 +211,15 @@ std::vector<Motion<Turn>> RotationStarts(const Eigen::Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
   std::vector<Motion<Turn>> starts(4);
   for (int i = 0; i < 4; ++i) {
-    // (x, y, z, w): half turns about x, y, z, and none.
+    // (x, y, z, w): half rotations about x, y and z, and the identity.
     const Eigen::Quaterniond turn(Eigen::Vector4d(Eigen::Vector4d::Unit(i)));
     starts[static_cast<std::size_t>(i)].rotation = (turn * q).coeffs();
   }
   return starts;
 }
 
-// The shift that `initial` is between the origins, whatever the rotation.
+// The shift between the origins that corresponds to `initial`, for any
+// rotation.
 template <typename Group>
 void SetShifts(const PairProblem<Group>& problem,
                const Rigid3& initial,
@@ -227,7 +229,7 @@ void SetShifts(const PairProblem<Group>& problem,
   }
 }
 
-// Of `motion` between the origins, with R as a matrix.
+// The pose of `motion`, which is between the origins. R is its rotation.
 template <typename Group>
 Rigid3 ToRigid3(const PairProblem<Group>& problem,
                 const Eigen::Matrix3d& R,

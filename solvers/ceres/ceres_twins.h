@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Every closed form once more, solved by Ceres on the right manifold: oracles
-// for tests and for cross-checks of a run. They share no formula with what they
-// check but the problem,
+// Solves the problem of every closed form by Ceres on the appropriate manifold,
+// as an oracle for tests and for cross-checks within a run. The twins share no
+// formula with the closed forms, only the problem,
 //
 //   R, t = argmin  sum_i w_i || q_i - R p_i - t ||^2,                       (1)
 //
@@ -11,23 +11,25 @@
 //   SolveYawTranslationByCeres S^1 x R^3            EstimateYawTranslation()
 //   SolvePoseByCeres           SO(3) x R^3          EstimateRigid()
 //
-// R is a point on the unit circle or a unit quaternion, t free; `estimate` has
-// the fields, units and conventions of the closed form's.
+// R is a point on the unit circle or a unit quaternion; t is free. `estimate`
+// has the fields, units and conventions of the closed form's.
 //
-// Starts. Besides its minimum, (1) is flat at a half turn from it (yaw) or at
-// three (rotation: two saddles, one maximum), where a descent can be stuck. So
-// it is made from `initial_...` and from that turned by 90 deg (yaw) or by 180
-// deg about x, y and z (rotation), and the least cost counts. One of the starts
-// is always within 135 or 120 deg of the minimum.
+// Starts. Besides its minimum, (1) is flat half a rotation away from it (yaw)
+// or at three other rotations (two saddles, one maximum), where a descent can
+// get stuck. So the descent starts at `initial_...`, and at that rotated by 90
+// deg (yaw) or by 180 deg about x, y and z (rotation). The result with the
+// least cost is taken. One of the starts is always within 135 deg (yaw) or 120
+// deg (rotation) of the minimum.
 //
-// Precision. Ceres takes steps that lower the cost, so it stops where the cost
-// has no more digits, at sqrt(1e-16) of the argument. From there Newton steps
-// on the gradient, for as long as they lower it, go on to the last digits.
+// Precision. Ceres accepts only steps that lower the cost. So it stops when the
+// digits of the cost are exhausted, at a relative error of sqrt(1e-16) in the
+// argument. From there, Newton steps on the gradient, taken as long as they
+// lower it, reach the last digits.
 //
-// Curvature. All of the second derivative, 2 sum_k (J_k^T J_k + r_k r_k''), in
-// the tangent space at the estimate, of the same residuals by jets of jets.
-// (The first part alone is Ceres' Gauss-Newton one, which at a poor fit is too
-// high.)
+// Curvature. The full second derivative, 2 sum_k (J_k^T J_k + r_k r_k''), in
+// the tangent space at the estimate, from the same residuals by jets of jets.
+// (The first term alone is Ceres' Gauss-Newton approximation, which is too
+// large if the fit is poor.)
 
 #ifndef QUATRO_SOLVERS_CERES_CERES_TWINS_H_
 #define QUATRO_SOLVERS_CERES_CERES_TWINS_H_
@@ -43,21 +45,22 @@
 
 namespace quatro {
 
-// What Ceres makes of a closed form's problem.
+// The solution of a closed form's problem by Ceres.
 template <typename Estimate>
 struct CeresTwin {
-  // False if Ceres failed, no pair has weight, or a number of one that has is
-  // not finite: then `estimate` means nothing. Pairs that do not determine the
-  // answer are usable: one of the minima, and a curvature that is singular.
+  // False if Ceres failed, if no pair has weight, or if a pair with weight is
+  // not finite; then `estimate` is meaningless. Pairs that do not determine the
+  // solution are usable: the estimate is one of the minima, and its curvature
+  // is singular.
   bool is_usable = false;
   Estimate estimate;
-  std::string message = "not solved";  // Ceres' reason to stop.
+  std::string message = "not solved";  // Why Ceres stopped.
 };
 
-// Who takes the derivative of the yaw's residual.
+// The source of the derivative of the yaw residual.
 enum class YawDerivative { kAutomatic, kAnalytic };
 
-// Sizes as for the closed forms. Weights are >= 0.
+// Sizes are those of the closed forms. Weights are >= 0.
 CeresTwin<YawEstimate> SolveYawByCeres(
     const PointsRef& source,
     const PointsRef& target,
@@ -65,7 +68,7 @@ CeresTwin<YawEstimate> SolveYawByCeres(
     double initial_target_from_source = 0.0,
     YawDerivative derivative = YawDerivative::kAutomatic);
 
-// Of equation (1) of solvers/closed_form/rotation.h, from the given start.
+// Solves (1) of solvers/closed_form/rotation.h from the given start.
 CeresTwin<RotationEstimate> SolveRotationByCeres(
     const PointsRef& source,
     const PointsRef& target,
@@ -73,14 +76,14 @@ CeresTwin<RotationEstimate> SolveRotationByCeres(
     const Eigen::Matrix3d& initial_target_from_source =
         Eigen::Matrix3d::Identity());
 
-// Of the initial rotation only the yaw counts.
+// Uses only the yaw of the initial rotation.
 CeresTwin<YawTranslationEstimate> SolveYawTranslationByCeres(
     const PointsRef& source,
     const PointsRef& target,
     const WeightsRef& weights,
     const Rigid3& initial_target_from_source = {});
 
-// Of equation (5) of solvers/closed_form/rotation.h, from the given start.
+// Solves (5) of solvers/closed_form/rotation.h from the given start.
 CeresTwin<RigidEstimate> SolvePoseByCeres(
     const PointsRef& source,
     const PointsRef& target,

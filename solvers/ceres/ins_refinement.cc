@@ -14,8 +14,8 @@
 namespace quatro {
 namespace {
 
-// The least eigenvalue of the rotation's curvature over the largest, below
-// which an axis counts as not held.
+// The ratio of the least to the largest eigenvalue of the rotation's curvature
+// below which an axis is unobservable.
 constexpr double kMinConditioning = 1e-12;
 
 struct VerticalResidual {
@@ -35,7 +35,8 @@ struct VerticalResidual {
   VerticalPrior prior;
 };
 
-// Of half of (1) for R -> exp(delta) R, where R u = v and q = R p + t.
+// The second derivative of half of (1) for R -> exp(delta) R, where R u = v and
+// q = R p + t.
 Eigen::Matrix3d RotationCurvature(const PointsRef& centered_target,
                                   double noise_sigma,
                                   const VerticalPrior& prior) {
@@ -70,7 +71,7 @@ std::optional<InsRefinement> RefineWithIns(
   const Eigen::Vector3d target_mean = target.rowwise().mean();
   const Points p = source.colwise() - source_mean;
   const Points q = target.colwise() - target_mean;
-  // Either cloud above one another is enough for no yaw.
+  // If either cloud is on one vertical line, there is no yaw.
   for (const Points& centered :
        {Points(initial_target_from_source.rotation * p), q}) {
     const Eigen::Vector3d curvature =

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The pose on matched points with what an INS knows of the vertical:
+// The pose from matched points and an INS's measurement of the vertical:
 //
 //   R, t = argmin  sum_i |q_i - R p_i - t|^2 / noise_sigma^2
 //                  + |R u - v|^2 / angle_std^2,                             (1)
 //
-// with u and v the unit vectors that point up in the source and in the target.
-// |R u - v| is the angle between the two verticals as long as that is small. It
-// does not hold a turn about them: the yaw is the matches'.
+// where u and v are the unit vectors that point up in the source and in the
+// target. For small angles, |R u - v| is the angle between the two verticals.
+// The prior does not constrain the rotation about them: only the matches
+// constrain the yaw.
 //
 // Swapping source and target, and u and v, gives the inverse.
 
@@ -22,11 +23,11 @@
 
 namespace quatro {
 
-// What is up in each cloud, and how sure that is.
+// The up direction in each cloud, and its uncertainty.
 struct VerticalPrior {
   Eigen::Vector3d up_in_source = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
-  double angle_std = 0.01;  // Of their angle, about either level axis [rad].
+  double angle_std = 0.01;  // About each level axis [rad].
 
   // The second term of (1).
   double Cost(const Eigen::Matrix3d& target_from_source) const;
@@ -38,9 +39,11 @@ struct InsRefinement {
   double cost = 0.0;  // Value of (1) at the minimum.
 };
 
-// A local minimum of (1), by Ceres from `initial_target_from_source`. Nullopt
-// if matches and prior together do not hold a rotation (no two matches, or all
-// of them above one another), for what is not finite, and if Ceres fails.
+// A local minimum of (1), found by Ceres from `initial_target_from_source`.
+// `noise_sigma` is the standard deviation of each axis [m]. Returns nullopt if
+// matches and prior together do not constrain the rotation (fewer than two
+// matches, or all on one vertical line), if anything is not finite, or if Ceres
+// fails.
 std::optional<InsRefinement> RefineWithIns(
     const PointsRef& source,
     const PointsRef& target,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// SO(2) for Ceres, held as the unit vector (cos a, sin a).
+// SO(2) for Ceres, stored as the unit vector (cos a, sin a).
 
 #ifndef QUATRO_SOLVERS_CERES_MANIFOLDS_H_
 #define QUATRO_SOLVERS_CERES_MANIFOLDS_H_
@@ -9,8 +9,8 @@
 
 namespace quatro {
 
-// Plus turns x by the angle delta; Minus is the signed angle from x to y, so
-// both are smooth across +-pi, where an angle parameter would jump.
+// Plus rotates x by the angle delta. Minus is the signed angle from x to y.
+// Both are smooth across +-pi, where an angle parameter would jump.
 struct UnitCircle {
   template <typename T>
   bool Plus(const T* x, const T* delta, T* x_plus_delta) const {
@@ -28,7 +28,7 @@ struct UnitCircle {
   }
 };
 
-// The same for Ceres.
+// The manifold in Ceres' interface.
 using UnitCircleManifold = ceres::AutoDiffManifold<UnitCircle, 2, 1>;
 
 }  // namespace quatro

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen3 = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
-// An axis has two unit vectors; the same one is always taken.
+// Chooses the sign of the axis so that its largest coordinate is positive.
 Eigen::Vector3d WithSign(const Eigen::Vector3d& axis) {
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
@@ -23,7 +23,7 @@ Eigen::Vector3d WithSign(const Eigen::Vector3d& axis) {
 
 std::string Text(const Eigen::Vector3d& vector, int digits) {
   char text[128];
-  // Rounded first, lest it read -0.00.
+  // Rounded first, so that it does not read -0.00.
   const double unit = std::pow(10.0, digits);
   const Eigen::Vector3d rounded =
       ((vector * unit).array().round() / unit + 0.0).matrix();
@@ -64,10 +64,11 @@ std::vector<DirectionInformation> SplitInformation(
   Eigen::Matrix3d u_from_w = Eigen::Matrix3d::Zero();  // -A_uu^+ A_uw
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = translations.eigenvectors().col(i);
-    const double held = std::max(0.0, translations.eigenvalues()[i]);
-    directions.push_back({Freedom::kTranslation, WithSign(axis), center, held});
-    if (held > 0.0 && held >= min_information) {
-      u_from_w -= axis * (axis.transpose() * A_uw) / held;
+    const double eigenvalue = std::max(0.0, translations.eigenvalues()[i]);
+    directions.push_back(
+        {Freedom::kTranslation, WithSign(axis), center, eigenvalue});
+    if (eigenvalue > 0.0 && eigenvalue >= min_information) {
+      u_from_w -= axis * (axis.transpose() * A_uw) / eigenvalue;
     }
   }
   const Eigen::Matrix3d schur = A_ww + A_uw.transpose() * u_from_w;
@@ -90,9 +91,10 @@ std::string UnobservableDirection::Describe() const {
                                " through " + Text(point, 1);
   switch (reason) {
     case UnobservableReason::kNoData:
-      return text + ": nothing depends on it, unbounded";
+      return text + ": no match depends on it, unbounded";
     case UnobservableReason::kWithinNoise:
-      return text + ": what depends on it is within the noise, unbounded";
+      return text +
+             ": its effect on the matches is within the noise, unbounded";
     case UnobservableReason::kUncertain:
       return text + ": " + Text(freedom, standard_deviation);
     case UnobservableReason::kAssumed:
@@ -101,7 +103,7 @@ std::string UnobservableDirection::Describe() const {
     case UnobservableReason::kNoSurface:
       break;
   }
-  return text + ": no surface stands across it";
+  return text + ": no surface constrains it";
 }
 
 }  // namespace quatro

@@ -20,16 +20,16 @@
 namespace quatro {
 namespace {
 
-constexpr double kMinConditioning = 1e-6;  // Of a lever over the extent.
+constexpr double kMinConditioning = 1e-6;  // Lever arm over extent.
 constexpr double kMaxRoundings = 8.0;
 
-// (3) about the centroids: x_i = R p_i' and y_i = q_i - c.
+// The matches of (3) relative to the centroids: x_i = R p_i' and y_i = q_i - c.
 struct CenteredMatches {
   Points x;
   Points y;
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();  // R mean(p) [m]
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double extent = 1.0;    // Root mean square of |x_i|, 1 if that is none [m].
+  double extent = 1.0;    // RMS of |x_i|, or 1 if zero [m].
   double rounding = 0.0;  // Of the coordinates as given [m].
 };
 
@@ -50,8 +50,8 @@ CenteredMatches Centered(const PointsRef& source,
   return matches;
 }
 
-// J^T J of (3), of the matches alone. Nothing off the diagonal blocks, for the
-// x_i add up to nothing.
+// J^T J of (3) from the matches alone. The off-diagonal blocks are zero,
+// because the x_i sum to zero.
 Matrix6 MatchInformation(const CenteredMatches& matches, double sigma) {
   const Eigen::Matrix3d scatter = matches.x * matches.x.transpose();
   Matrix6 information = Matrix6::Zero();
@@ -90,7 +90,7 @@ Vector6 Gradient(const CenteredMatches& matches,
   return gradient;
 }
 
-// (1) as a function of the numbers of (3): delta is w of the group.
+// Equation (1) as a function of the numbers of (3): delta is w of the group.
 template <typename Group>
 struct PerturbedPair {
   using CostFunction =
@@ -129,9 +129,9 @@ struct PerturbedVertical {
   VerticalPrior prior;
 };
 
-// Of (delta, u) by Ceres, zero where the problem has no rank. In units of the
-// extent, lest metres against radians decide what that is. Points are in a
-// frame whose z is the group's.
+// The covariance of (delta, u) by Ceres; zero in directions that the data do
+// not constrain. Lengths are in units of the extent, so that the rank does not
+// depend on the unit. Points are in a frame whose z is the axis of the group.
 template <typename Group>
 std::optional<Eigen::MatrixXd> CeresCovariance(
     const Points& x,
@@ -160,7 +160,8 @@ std::optional<Eigen::MatrixXd> CeresCovariance(
   }
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
-  options.null_space_rank = -1;  // Any: directions without data come out zero.
+  // Any rank: unobservable directions become zero.
+  options.null_space_rank = -1;
   ceres::Covariance covariance(options);
   const std::vector<const double*> blocks = {delta, shift};
   Eigen::Matrix<double, kFreedoms + 3, kFreedoms + 3, Eigen::RowMajor> scaled;
@@ -175,7 +176,7 @@ std::optional<Eigen::MatrixXd> CeresCovariance(
   return Eigen::MatrixXd(units.asDiagonal() * scaled * units.asDiagonal());
 }
 
-// The columns are the estimated freedoms in the places of (w, u).
+// The estimated degrees of freedom as columns in the order (w, u).
 Eigen::MatrixXd Freedoms(const PoseCovarianceOptions& options) {
   if (options.model == PoseModel::kRigid) return Matrix6::Identity();
   Eigen::MatrixXd freedoms = Eigen::MatrixXd::Zero(6, 4);
@@ -184,7 +185,7 @@ Eigen::MatrixXd Freedoms(const PoseCovarianceOptions& options) {
   return freedoms;
 }
 
-// Of the estimated freedoms, in the places of (w, u).
+// The covariance of the estimated degrees of freedom in the order (w, u).
 std::optional<Matrix6> EstimatedCovariance(const CenteredMatches& matches,
                                            const PoseCovarianceOptions& options,
                                            double sigma,
@@ -224,8 +225,8 @@ std::optional<Matrix6> EstimatedCovariance(const CenteredMatches& matches,
                  target_from_level.transpose());
 }
 
-// What an error of the assumed tilt E s, s ~ N(0, tilt_std^2), does: it is one
-// itself, and the yaw that fits best then is off by b^T s / a.
+// The effect of an error of the assumed tilt E s, s ~ N(0, tilt_std^2): the
+// error itself, and a shift of the best yaw by b^T s / a.
 Eigen::Matrix3d TiltCovariance(const Matrix6& information,
                                const PoseCovarianceOptions& options) {
   const Eigen::Matrix3d A_ww = information.topLeftCorner<3, 3>();
@@ -237,8 +238,9 @@ Eigen::Matrix3d TiltCovariance(const Matrix6& information,
   return options.tilt_std * options.tilt_std * error * error.transpose();
 }
 
-// What holds a rotation, if anything: points off the axis, or a prior.
-std::optional<UnobservableReason> WhyNotHeld(
+// Returns why a direction is unobservable, or nullopt if it is observable. A
+// rotation is constrained by points off its axis or by a prior.
+std::optional<UnobservableReason> WhyUnobservable(
     const DirectionInformation& direction,
     const Matrix6& match_information,
     const Matrix6& information,
@@ -253,7 +255,7 @@ std::optional<UnobservableReason> WhyNotHeld(
   const double by_matches = w.dot(match_information.topLeftCorner<3, 3>() * w);
   const double by_prior =
       w.dot(information.topLeftCorner<3, 3>() * w) - by_matches;
-  // From the axis, root mean square [m].
+  // Root mean square distance from the axis [m].
   const double lever = sigma * std::sqrt(by_matches / std::max(1.0, n));
   if (by_prior > 1.0 && by_prior >= by_matches) return std::nullopt;
   if (!(lever > std::max(kMinConditioning * matches.extent,
@@ -265,7 +267,7 @@ std::optional<UnobservableReason> WhyNotHeld(
   return std::nullopt;
 }
 
-// The directions that may not be held: all, or yaw and translation.
+// The directions that may be unobservable: all six, or yaw and translation.
 std::vector<DirectionInformation> EstimatedDirections(
     const Matrix6& information,
     const Eigen::Vector3d& center,
@@ -282,7 +284,7 @@ std::vector<DirectionInformation> EstimatedDirections(
   return directions;
 }
 
-// How uncertain the direction is, in (w, u).
+// The standard deviation of the direction in (w, u).
 double StandardDeviation(const DirectionInformation& direction,
                          const Matrix6& covariance) {
   const int place = direction.freedom == Freedom::kRotation ? 0 : 3;
@@ -370,12 +372,12 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
   }
   const auto directions =
       EstimatedDirections(information, matches.center, options);
-  bool is_held = true;
+  bool is_observable = true;
   for (const DirectionInformation& direction : directions) {
-    const auto why_not = WhyNotHeld(
+    const auto why_not = WhyUnobservable(
         direction, by_matches, information, matches, options, result.sigma);
     if (!why_not) continue;
-    is_held = false;
+    is_observable = false;
     result.unobservable.push_back(
         {direction.freedom, *why_not, direction.axis, direction.point, {}});
   }
@@ -384,7 +386,8 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
   if (source.cols() > 0) {
     estimated =
         EstimatedCovariance(matches, options, result.sigma, R, information);
-    // Where the covariance is the inverse, the product is the identity.
+    // The trace is the number of directions in which the covariance is the
+    // inverse of the information.
     if (estimated) {
       result.rank =
           static_cast<int>(std::lround((*estimated * information).trace()));
@@ -401,10 +404,10 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
                                      options.tilt_std});
     }
   }
-  if (!is_held || !estimated || result.rank < B.cols()) {
+  if (!is_observable || !estimated || result.rank < B.cols()) {
     std::ostringstream message;
-    message << source.cols() << " matches hold " << result.rank << " of "
-            << B.cols() << " freedoms";
+    message << source.cols() << " matches constrain " << result.rank << " of "
+            << B.cols() << " degrees of freedom";
     for (const UnobservableDirection& direction : result.unobservable) {
       message << "; " << direction.Describe();
     }
@@ -437,7 +440,7 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
   result.covariance_at_center = *estimated;
   const Matrix6 covariance = from_center * *estimated * from_center.transpose();
   result.covariance = 0.5 * (covariance + covariance.transpose());
-  result.message = "held";
+  result.message = "computed";
   return result;
 }
 

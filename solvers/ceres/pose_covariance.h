@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How certain a pose from matched points is. With normal noise of standard
-// deviation sigma on each axis of q_i, the least squares pose
+// The covariance of a pose from matched points. With Gaussian noise of standard
+// deviation sigma on each axis of q_i, the least-squares pose
 //
 //   min_{R, t}  sum_i |q_i - R p_i - t|^2 / sigma^2                        (1)
 //
@@ -9,26 +9,26 @@
 //
 //   true R = exp([w]x) R,   true t = t + d,                                (2)
 //
-// w [rad] in the first three places, d [m] in the last: turns about the axes of
-// the target, translations of the image of the source's origin. Far from that
-// origin, w and d are correlated to the last digits, and (2) holds to first
-// order only as long as |R mean(p)| |w|^2 is small. The same without either:
-// turns about c = R mean(p) + t and translations of c,
+// with w [rad] in the first three places and d [m] in the last three: rotations
+// about the axes of the target, and translations of the image of the source's
+// origin. Far from that origin, w and d are strongly correlated, and (2) holds
+// to first order only as long as |R mean(p)| |w|^2 is small. The following form
+// avoids both, with rotations about c = R mean(p) + t and translations u of c,
 //
 //   true target_from_source: x -> exp([w]x) (R p + t - c) + c + u,         (3)
 //   d = u + (R mean(p)) x w.
 //
-// The covariance is Ceres', of (1) at the given pose by a dense singular value
-// decomposition that reveals the rank.
+// The covariance is computed by Ceres for (1) at the given pose, by a dense
+// singular value decomposition that reveals the rank.
 //
-// Directions that are not held are named. If a direction is held by nothing, or
-// by points that are as good as on one axis, there is no covariance: any number
-// would be wrong.
+// Unobservable directions are listed. If nothing constrains a direction, or if
+// all points are practically on one axis, there is no covariance, because any
+// number would be wrong.
 //
-// What it leaves out: matches that err alike (neighbours in a scan do, and all
-// of a sensor that is off), and estimators that do not minimise (1): see
-// `offset`. On real pairs it is too small for that: there the normalised error
-// squared is tens, not 6.
+// The model ignores correlated errors of matches (neighbors in a scan have
+// them, and so does a biased sensor) and estimators that do not minimize (1);
+// see `offset`. So on real pairs the covariance is too small: the squared
+// normalized error is tens instead of 6.
 
 #ifndef QUATRO_SOLVERS_CERES_POSE_COVARIANCE_H_
 #define QUATRO_SOLVERS_CERES_POSE_COVARIANCE_H_
@@ -45,12 +45,12 @@
 
 namespace quatro {
 
-// Which freedoms were estimated.
+// The degrees of freedom that were estimated.
 enum class PoseModel {
-  kRigid,  // All six freedoms are estimated.
-  // A turn about the vertical and a translation. The tilt, a turn about a level
-  // axis, is assumed to be right, with an error of `tilt_std` that goes into
-  // the covariance with all it does to the yaw and the translation.
+  kRigid,  // All six degrees of freedom.
+  // A rotation about the vertical and a translation. The tilt, a rotation about
+  // a level axis, is assumed with an error of `tilt_std`. The covariance
+  // includes this error and its effect on yaw and translation.
   kYawTranslation,
 };
 
@@ -96,31 +96,32 @@ struct PoseCovarianceOptions : CovarianceOptions {
   bool IsValid(std::string* error) const;
 };
 
-// How certain a pose is, and in which directions it is not.
+// The covariance of a pose, and the directions that are unobservable or
+// uncertain.
 struct PoseCovariance {
-  std::optional<Matrix6> covariance;                 // Of (2).
+  std::optional<Matrix6> covariance;                 // Of w and d in (2).
   std::optional<Matrix6> covariance_at_center;       // Of w and u in (3).
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // c [m]
 
   std::vector<UnobservableDirection> unobservable;
 
-  // Of the 6 or 4 estimated freedoms, as many as the problem holds.
+  // The number of observable degrees of freedom, out of the 6 or 4 estimated.
   int rank = 0;
 
-  double sigma = 0.0;                     // As used [m].
+  double sigma = 0.0;                     // The value used [m].
   std::optional<double> estimated_sigma;  // From the residuals [m].
 
-  // From the pose to the minimum of (1), in standard deviations. What is not
-  // small against 1 comes from an estimator of another cost: then the
-  // covariance is that of the minimum.
+  // The distance from the pose to the minimum of (1) in standard deviations. If
+  // it is not small compared with 1, the pose comes from an estimator with
+  // another cost, and the covariance is that of the minimum.
   double offset = 0.0;
 
   std::string message = "no covariance was asked for";
 };
 
-// Column i of `source` is matched with column i of `target` [m]; all are taken
-// to be right. Never fails but for sizes that differ, for what is not finite
-// and for options out of range: the message says so.
+// Column i of `source` is matched with column i of `target` [m]. All matches
+// are assumed to be inliers. Fails only if sizes differ, something is not
+// finite, or an option is out of range; then the message says so.
 PoseCovariance ComputePoseCovariance(const PointsRef& source,
                                      const PointsRef& target,
                                      const Rigid3& target_from_source,

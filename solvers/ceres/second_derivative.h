@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// First and second derivative of a function f: R^N -> R at the origin, exact to
-// rounding, from one call with Ceres' jets of jets:
+// The first and second derivatives of a function f: R^N -> R at the origin,
+// exact to rounding, from one call with Ceres' jets of jets:
 //
 //   gradient_i = df/dx_i,    hessian_ij = d^2 f / dx_i dx_j.                (1)
 
@@ -15,7 +15,7 @@
 
 namespace quatro {
 
-// `x` as a constant of type T. T(x) would do for a jet, not for a jet of jets.
+// `x` as a constant of type T. T(x) works for a jet, but not for a jet of jets.
 template <typename T>
 T Constant(double x) {
   if constexpr (std::is_same_v<T, double>) {
@@ -33,11 +33,12 @@ struct SecondDerivative {
   Eigen::Matrix<double, N, N> hessian;
 };
 
-// `f` takes a const T* to N numbers and returns a T, for T = JetOfJets<N>.
+// The number type T of a function f that takes a const T* to N numbers and
+// returns a T.
 template <int N>
 using JetOfJets = ceres::Jet<ceres::Jet<double, N>, N>;
 
-// Of f, a function of N jets, at zero.
+// The derivatives of f, a function of N jets, at zero.
 template <int N, typename Function>
 SecondDerivative<N> ComputeSecondDerivative(const Function& f) {
   using T = JetOfJets<N>;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Points about their weighted mean c,
+// Points relative to their weighted mean c,
 //
 //   c = sum_i w_i p_i / sum_i w_i,        p_i' = p_i - c,                   (1)
 //
-// where the p_i' keep their digits however far c is from the origin.
+// computed so that the p_i' keep their digits even if c is far from the origin.
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_CENTROID_H_
 #define QUATRO_SOLVERS_CLOSED_FORM_CENTROID_H_
@@ -17,19 +17,19 @@
 
 namespace quatro {
 
-// Points, and the mean that they were taken from.
+// Centered points and their mean.
 struct CenteredPoints {
   Eigen::Vector3d centroid;  // c of (1) [m]
   Points points;             // p_i' of (1) [m]
 
-  // What the digits of the p_i, as given, can be off by [m].
+  // The rounding error of the p_i, as given [m].
   double rounding = 0.0;
 };
 
-// At least one weight is > 0. Points without weight have no part in c.
+// At least one weight must be > 0. Points with zero weight do not affect c.
 inline CenteredPoints Center(const PointsRef& points,
                              const WeightsRef& weights) {
-  // From the heaviest point first: near it, differences are exact.
+  // Start at the heaviest point: differences to points near it are exact.
   Eigen::Index heaviest = 0;
   weights.maxCoeff(&heaviest);
   const Eigen::Vector3d origin = points.col(heaviest);
@@ -48,8 +48,8 @@ inline CenteredPoints Center(const PointsRef& points,
   return centered;
 }
 
-// What rounding of the points, as given, can make up in sum_i w_i p_i' q_i'^T
-// [m^2]: less than that is nothing.
+// The largest value that rounding of the points, as given, can cause in sum_i
+// w_i p_i' q_i'^T [m^2]. A smaller value is indistinguishable from zero.
 inline double RoundingOfMoments(const CenteredPoints& p,
                                 const CenteredPoints& q,
                                 const WeightsRef& weights) {

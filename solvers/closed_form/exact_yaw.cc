@@ -17,10 +17,11 @@
 namespace quatro {
 namespace {
 
-// Costs that differ by less, relative to all weight, do by rounding.
+// Costs that differ by less than this, relative to the total weight, are equal
+// up to rounding.
 constexpr double kTie = 1e-12;
 
-// One measurement as it stands in (1), divided by c^2 / w.
+// One measurement of (1), divided by c^2 / w.
 struct Arc {
   double phi = 0.0;           // [rad]
   double length_error = 0.0;  // (a - b)^2
@@ -33,7 +34,7 @@ struct End {
   bool leaves = false;
   std::int32_t arc = 0;
 
-  // Closed arcs: who enters comes before who leaves.
+  // Arcs are closed, so an arc enters before another leaves at the same angle.
   friend bool operator<(const End& x, const End& y) {
     return std::tie(x.at, x.leaves, x.arc) < std::tie(y.at, y.leaves, y.arc);
   }
@@ -41,13 +42,13 @@ struct End {
 
 // The sinusoid of a set of arcs about a reference angle theta0,
 //   g(theta0 + d) = at_reference + cosine (1 - cos d) + sine sin d.
-// The reference moves along with the sweep, so at_reference is a sum of small
+// The reference moves with the sweep, so at_reference is a sum of small
 // residuals and nothing cancels.
 //
-// An arc that leaves takes with it the digits below its own last one. So the
-// sums are made anew once what has left outweighs what stays: a long
-// measurement does not drown the short ones, at O(1) an arc where lengths are
-// comparable.
+// Removing an arc loses the digits below its own last one. So the sums are
+// recomputed once the removed arcs outweigh the remaining ones by a factor of
+// four. Then a long measurement does not drown the short ones, at a cost of
+// O(1) per arc if lengths are comparable.
 class Sinusoid {
  public:
   explicit Sinusoid(const std::vector<Arc>& arcs)
@@ -65,9 +66,9 @@ class Sinusoid {
     position_[static_cast<std::size_t>(set_.back())] = position;
     set_.pop_back();
     Add(arc, -1.0);
-    gone_ += arcs_[static_cast<std::size_t>(arc)].pull;
-    if (!(gone_ > 4.0 * held_) && !set_.empty()) return;
-    at_reference_ = cosine_ = sine_ = held_ = gone_ = 0.0;
+    removed_pull_ += arcs_[static_cast<std::size_t>(arc)].pull;
+    if (!(removed_pull_ > 4.0 * pull_) && !set_.empty()) return;
+    at_reference_ = cosine_ = sine_ = pull_ = removed_pull_ = 0.0;
     for (const std::int32_t i : set_) Add(i, 1.0);
   }
 
@@ -85,7 +86,7 @@ class Sinusoid {
     cosine_ = cosine;
   }
 
-  // at_reference + C - |(C, S)|, written so that it does not cancel.
+  // at_reference + C - |(C, S)|, in a form that does not cancel.
   double Minimum() const {
     const double length = std::hypot(cosine_, sine_);
     if (!(cosine_ > 0.0)) return at_reference_ + cosine_ - length;
@@ -102,18 +103,18 @@ class Sinusoid {
     at_reference_ += sign * (arc.length_error + arc.pull * 2.0 * half * half);
     cosine_ += sign * arc.pull * std::cos(u);
     sine_ += sign * arc.pull * std::sin(u);
-    held_ += sign * arc.pull;
+    pull_ += sign * arc.pull;
   }
 
   const std::vector<Arc>& arcs_;
   std::vector<std::int32_t> set_;
-  std::vector<std::size_t> position_;  // In set_, of who is in it.
+  std::vector<std::size_t> position_;  // Of each arc of the set, in set_.
   double reference_ = -M_PI;
   double at_reference_ = 0.0;
   double cosine_ = 0.0;
   double sine_ = 0.0;
-  double held_ = 0.0;  // Pull of the set.
-  double gone_ = 0.0;  // Pull of who left since the sums were made.
+  double pull_ = 0.0;          // Total pull of the set.
+  double removed_pull_ = 0.0;  // Removed since the sums were computed.
 };
 
 Eigen::ArrayXd SquaredResiduals(const PointsRef& source,
@@ -156,8 +157,8 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
 
   std::vector<Arc> arcs;
   std::vector<End> ends;
-  std::vector<std::int32_t> first_set;  // Of the arcs that hold -pi.
-  double outlier_weight = 0.0;          // Of the arcs that are not in the set.
+  std::vector<std::int32_t> first_set;  // The arcs that contain -pi.
+  double outlier_weight = 0.0;          // Weight of the arcs outside the set.
   for (Eigen::Index k = 0; k < source.cols(); ++k) {
     const double sx = source(0, k);
     const double sy = source(1, k);
@@ -172,7 +173,7 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
     // sin^2(half width / 2) = (c^2 - (a - b)^2) / (4 a b).
     const double room = bound2 - (a - b) * (a - b);
     if (!(weights[k] > 0.0) || !(pull > 0.0) || !(room >= 0.0)) continue;
-    if (!std::isfinite(pull * scale)) continue;  // No angle could be told.
+    if (!std::isfinite(pull * scale)) continue;  // Overflow.
     const double phi = std::atan2(sx * ty - sy * tx, sx * tx + sy * ty);
     const auto index = static_cast<std::int32_t>(arcs.size());
     arcs.push_back({phi, (a - b) * (a - b) * scale, pull * scale, weights[k]});
@@ -188,7 +189,7 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
     if (end > M_PI) end -= 2.0 * M_PI;
     ends.push_back({begin, false, index});
     ends.push_back({end, true, index});
-    if (begin > end) {  // It holds -pi, where the sweep starts.
+    if (begin > end) {  // It contains -pi, where the sweep starts.
       first_set.push_back(index);
       outlier_weight -= weights[k];
     }
@@ -223,8 +224,8 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
     consider();
   }
 
-  // Once more from the residuals of the inliers found, which undoes the
-  // rounding of the running sums. It can only lower the cost.
+  // Solves once more with the inliers found, which removes the rounding of the
+  // running sums. This can only lower the cost.
   ExactYawEstimate estimate;
   estimate.target_from_source = std::remainder(best_yaw, 2.0 * M_PI);
   const auto evaluate = [&](double yaw) {

@@ -11,7 +11,7 @@
 namespace quatro {
 namespace {
 
-// Below this |from + to| has lost the digits that tell the plane of the turn.
+// Below this, |from + to| has lost the digits that give the plane of rotation.
 constexpr double kOpposite = 1e-8;
 
 Eigen::Matrix3d Reflection(const Eigen::Vector3d& unit_normal) {
@@ -46,8 +46,8 @@ Eigen::Matrix3d RelativeTilt(const Attitude& source, const Attitude& target) {
 
 Eigen::Matrix3d RotationBetween(const Eigen::Vector3d& from,
                                 const Eigen::Vector3d& to) {
-  // from -> -from -> to. Two reflections make a turn by twice the angle between
-  // their normals, orthonormal however small from + to is.
+  // from -> -from -> to. Two reflections are a rotation by twice the angle
+  // between their normals. It is orthonormal however small from + to is.
   const Eigen::Vector3d sum = from + to;
   Eigen::Vector3d normal = sum;
   if (sum.norm() < kOpposite) {

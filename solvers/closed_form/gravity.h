@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What an INS says of a vehicle's attitude, and what of it is gravity's. With x
-// ahead, y to the left and z up,
+// The attitude of a vehicle from an INS, and its part that gravity determines.
+// With x forward, y to the left and z up,
 //
 //   world_from_body = R_z(yaw) R_y(pitch) R_x(roll).                        (1)
 //
-// Roll and pitch are held by gravity and do not drift; yaw is not. Two frames
-// that are level differ by a turn about the vertical alone,
+// Gravity constrains roll and pitch, so they do not drift; yaw does. Two level
+// frames differ only by a rotation about the vertical,
 //
 //   target_from_source = level_from_target^-1 R_z level_from_source,        (2)
 //   level_from_body    = R_y(pitch) R_x(roll).                              (3)
@@ -18,30 +18,31 @@
 
 namespace quatro {
 
-// World from body: turns about x, then y, then z.
+// The rotation world_from_body as angles about x, then y, then z.
 struct Attitude {
   double roll = 0.0;   // [rad]
   double pitch = 0.0;  // [rad]
   double yaw = 0.0;    // [rad]
 };
 
-// (1)
+// Equation (1).
 Eigen::Matrix3d WorldFromBody(const Attitude& attitude);
 
-// Its inverse, with |pitch| <= pi / 2; at pi / 2 only one of many.
+// The inverse of WorldFromBody(), with |pitch| <= pi / 2. At pi / 2 the angles
+// are not unique, and one solution is returned.
 Attitude AttitudeOf(const Eigen::Matrix3d& world_from_body);
 
-// (3)
+// Equation (3).
 Eigen::Matrix3d LevelFromBody(double roll, double pitch);
 
-// The part R_y R_x of the rotation R_z R_y R_x from source to target, both
-// attitudes in one world. Unlike (2), it is only as good as the difference of
-// the yaws.
+// The part R_y R_x of the rotation R_z R_y R_x from source to target. Both
+// attitudes are in the same world frame. Unlike in (2), an error of the
+// difference of the yaws affects the result.
 Eigen::Matrix3d RelativeTilt(const Attitude& source, const Attitude& target);
 
-// The least rotation with to = R from, for unit vectors. For opposite ones, the
-// half turn about x or, if they are nearly along x, about y: made perpendicular
-// to them.
+// The smallest rotation R with to = R from, for unit vectors. If they are
+// opposite, R rotates by 180 deg about the component of the x axis
+// perpendicular to them or, if they are nearly along x, of the y axis.
 Eigen::Matrix3d RotationBetween(const Eigen::Vector3d& from,
                                 const Eigen::Vector3d& to);
 

@@ -15,9 +15,9 @@
 namespace quatro {
 namespace {
 
-// The least eigenvalue of (4) counts as zero below this part of
-// sum_i w_i |s_i| |t_i|: there, the rounding of M alone, 1e-16 of that, would
-// turn the answer by 1e-4 rad.
+// The least eigenvalue of (4) counts as zero below this fraction of sum_i w_i
+// |s_i| |t_i|. There, the rounding of M alone, 1e-16 of that sum, could rotate
+// the estimate by 1e-4 rad.
 constexpr double kMinCurvature = 1e-12;
 
 struct RotationOfM {
@@ -41,7 +41,7 @@ RotationOfM RotationBySvd(const Eigen::Matrix3d& M) {
 RotationOfM RotationByHorn(const Eigen::Matrix3d& M) {
   const Eigen::Vector3d skew(
       M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1));
-  Eigen::Matrix4d N;  // Rows and columns in order w, x, y, z.
+  Eigen::Matrix4d N;  // Rows and columns are w, x, y, z.
   N(0, 0) = M.trace();
   N.topRightCorner<1, 3>() = skew.transpose();
   N.bottomLeftCorner<3, 1>() = skew;
@@ -54,7 +54,7 @@ RotationOfM RotationByHorn(const Eigen::Matrix3d& M) {
           eigen.eigenvalues()[3] - eigen.eigenvalues()[2]};
 }
 
-// `floor` [m^2] is the curvature that errors in the pairs can make up.
+// `floor` [m^2] is the curvature that rounding of the points can cause.
 template <typename RotationByM>
 std::optional<RotationEstimate> Estimate(const PointsRef& source,
                                          const PointsRef& target,
@@ -82,7 +82,7 @@ std::optional<RotationEstimate> Estimate(const PointsRef& source,
   const Eigen::Matrix3d B = M * R.transpose();
   rotation.curvature =
       2.0 * B.trace() * Eigen::Matrix3d::Identity() - (B + B.transpose());
-  // Summed from residuals: the expanded form of (1) would cancel.
+  // Summed from residuals, because the expanded form of (1) would cancel.
   rotation.cost =
       (target - R * source).colwise().squaredNorm().transpose().dot(weights);
   return rotation;

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Rotation from weighted pairs, in closed form, and the rigid motion from it.
+// Rotation from weighted pairs in closed form, and the rigid transformation
+// derived from it.
 //
 // Given pairs (s_i, t_i) and weights w_i >= 0, finds the rotation
 //
 //   R = argmin_{R in SO(3)}  sum_i w_i || t_i - R s_i ||^2.                 (1)
 //
-// All that (1) has of the pairs is M, so it costs one pass over them and
+// (1) depends on the pairs only through M. So it takes one pass over the pairs
+// and
 //
 //   M = sum_i w_i t_i s_i^T = U diag(d1, d2, |d3|) V^T,    d3 = +-|d3|,
 //   R = U diag(1, 1, det(U V^T)) V^T,  d3 signed as det(U V^T),             (2)
@@ -17,12 +19,12 @@
 //
 //   H = 2 tr(B) I - (B + B^T),   B = M R^T,                                 (4)
 //
-// of eigenvalues 2 (d2 + d3) <= 2 (d1 + d3) <= 2 (d1 + d2). The least is zero
-// exactly where R is not unique: the pairs are on one line through the origin
-// (d2 = d3 = 0), or a reflection fits them and the best two rotations tie
-// (d2 = -d3). It is also the gap between the two largest eigenvalues in (3).
+// with eigenvalues 2 (d2 + d3) <= 2 (d1 + d3) <= 2 (d1 + d2). The least is zero
+// exactly if R is not unique: either the pairs are on one line through the
+// origin, d2 = d3 = 0, or a reflection fits them and the best two rotations
+// tie, d2 = -d3. It is also the gap between the two largest eigenvalues in (3).
 //
-// Source: Arun, Huang and Blostein, PAMI 1987; Umeyama, PAMI 1991 (the sign in
+// Sources: Arun, Huang and Blostein, PAMI 1987; Umeyama, PAMI 1991 (the sign in
 // (2)); Horn, "Closed-form solution of absolute orientation using unit
 // quaternions", JOSA A 1987.
 
@@ -37,9 +39,9 @@
 
 namespace quatro {
 
-// The minimum of (1), and how firmly it is held.
+// The minimum of (1) and its curvature.
 struct RotationEstimate {
-  // Turns a direction in the source frame into the target frame.
+  // Rotates a direction from the source frame into the target frame.
   Eigen::Matrix3d target_from_source = Eigen::Matrix3d::Identity();
 
   // Value of (1) at the minimum [m^2].
@@ -50,10 +52,10 @@ struct RotationEstimate {
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
 };
 
-// `source` and `target` hold the pairs column by column; their sizes and that
-// of `weights` must agree. Returns nullopt if the pairs do not determine a
-// rotation: the least eigenvalue of (4) is zero, up to rounding. So for no
-// pairs, one pair, weights that are all zero, and NaN.
+// `source` and `target` hold the pairs column by column. Their sizes and that
+// of `weights` must be equal. Returns nullopt if the pairs do not determine a
+// rotation: the least eigenvalue of (4) is zero up to rounding. This covers no
+// pairs, one pair, all weights zero, and NaN.
 std::optional<RotationEstimate> EstimateRotationSvd(const PointsRef& source,
                                                     const PointsRef& target,
                                                     const WeightsRef& weights);
@@ -61,7 +63,7 @@ std::optional<RotationEstimate> EstimateRotationHorn(const PointsRef& source,
                                                      const PointsRef& target,
                                                      const WeightsRef& weights);
 
-// The default of the two: (2).
+// Estimates the rotation by (2), the default method.
 inline std::optional<RotationEstimate> EstimateRotation(
     const PointsRef& source,
     const PointsRef& target,
@@ -69,27 +71,29 @@ inline std::optional<RotationEstimate> EstimateRotation(
   return EstimateRotationSvd(source, target, weights);
 }
 
-// The minimum of (5), and how firmly it is held.
+// The minimum of (5) and its curvature.
 struct RigidEstimate {
   Rigid3 target_from_source;
 
   // Value of (5) at the minimum [m^2].
   double cost = 0.0;
 
-  // Second derivative of (5) for a turn by delta [rad] about the centroid c of
-  // the source and a shift by tau [m],
-  //   x -> exp([delta]x) R (x - c) + R c + t + tau,    in order (delta, tau),
-  // where the two do not mix: (4) of the centred points, and 2 sum_i w_i I.
+  // Second derivative of (5) for a rotation by delta [rad] about the centroid c
+  // of the source and a translation by tau [m],
+  //   x -> exp([delta]x) R (x - c) + R c + t + tau,    in order (delta, tau).
+  // The cross terms are zero. The blocks are (4) of the centered points and 2
+  // sum_i w_i I.
   Eigen::Matrix<double, 6, 6> curvature = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-// The rigid motion
+// The rigid transformation
 //
 //   R, t = argmin  sum_i w_i || q_i - R p_i - t ||^2                        (5)
 //
-// of points p_i in `source` and q_i in `target`: (1) for the points about their
-// weighted means, then t = mean(q) - R mean(p). Good to the last digits far
-// from the origin, too. Nullopt as above: the points must not be on a line.
+// of points p_i in `source` and q_i in `target`. R is (1) for the points
+// relative to their weighted means; then t = mean(q) - R mean(p). The result is
+// accurate far from the origin, too. Returns nullopt as above; in particular,
+// the points must not be on one line.
 std::optional<RigidEstimate> EstimateRigid(const PointsRef& source,
                                            const PointsRef& target,
                                            const WeightsRef& weights);

@@ -13,15 +13,16 @@
 namespace quatro {
 namespace {
 
-// Where a measurement enters or leaves the consensus set.
+// The value at which a measurement enters or leaves the consensus set.
 struct End {
   double at = 0.0;
   bool leaves = false;
   double value = 0.0;
   double inverse_bound2 = 0.0;
 
-  // Closed intervals: who enters comes before who leaves. The rest of the key
-  // makes sums independent of the order of the measurements.
+  // Intervals are closed, so a measurement enters before another leaves at the
+  // same value. The other keys make sums independent of the order of
+  // measurements.
   friend bool operator<(const End& a, const End& b) {
     return std::tie(a.at, a.leaves, a.value, a.inverse_bound2) <
            std::tie(b.at, b.leaves, b.value, b.inverse_bound2);
@@ -47,8 +48,8 @@ std::optional<ConsensusEstimate> EstimateConsensus(
   std::sort(ends.begin(), ends.end());
 
   // Weighted sums over the consensus set of (v - at) and (v - at)^2. The origin
-  // moves along with the sweep: everyone in the set is near it, and nothing is
-  // left behind by an outlier far away.
+  // moves with the sweep, so it is near the whole set, and distant outliers
+  // leave no rounding error.
   double weight = 0.0;
   double first = 0.0;
   double second = 0.0;
@@ -71,8 +72,8 @@ std::optional<ConsensusEstimate> EstimateConsensus(
     first += sign * end.inverse_bound2 * offset;
     second += sign * end.inverse_bound2 * offset * offset;
     count += end.leaves ? -1 : 1;
-    // A set that shrinks was larger, and at its best, just before; but the one
-    // that remains is a candidate too.
+    // The set after a removal is a candidate, too. The larger set before it was
+    // already considered.
     if (count == 0) continue;
     const double mean = first / weight;
     const double cost = second - mean * first + static_cast<double>(n - count);

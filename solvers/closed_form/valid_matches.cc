@@ -9,9 +9,9 @@ bool AreValidMatches(const PointsRef& source,
                      const PointsRef& target,
                      std::string* error) {
   if (source.cols() != target.cols()) {
-    *error = std::to_string(source.cols()) +
-             " source points are matched with " +
-             std::to_string(target.cols()) + " target points";
+    *error = std::to_string(source.cols()) + " source points but " +
+             std::to_string(target.cols()) +
+             " target points; equal numbers are required";
     return false;
   }
   if (!source.allFinite() || !target.allFinite()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What any estimator asks of matched points (p_i, q_i), i < N: as many of one
-// as of the other, and all finite. None at all is fine.
+// The condition on matched points (p_i, q_i), i < N, that all estimators share:
+// equal numbers of both, and all finite. N may be zero.
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_VALID_MATCHES_H_
 #define QUATRO_SOLVERS_CLOSED_FORM_VALID_MATCHES_H_
@@ -12,8 +12,8 @@
 
 namespace quatro {
 
-// Returns false and says why in *error if column i of one cannot be matched
-// with column i of the other.
+// Returns false and sets *error unless column i of `source` can be matched with
+// column i of `target` for all i.
 bool AreValidMatches(const PointsRef& source,
                      const PointsRef& target,
                      std::string* error);

@@ -17,8 +17,8 @@ std::optional<YawEstimate> EstimateYaw(const PointsRef& source,
   CHECK_EQ(source.cols(), target.cols());
   CHECK_EQ(source.cols(), weights.size());
 
-  // Equation (2). `scale` bounds hypot(S, C) from above and tells rounding
-  // from signal below, whatever the units of the weights.
+  // Equation (2). `scale` is an upper bound of hypot(S, C). The ratio of the
+  // two separates signal from rounding in any unit of the weights.
   double S = 0.0;
   double C = 0.0;
   double scale = 0.0;
@@ -39,8 +39,8 @@ std::optional<YawEstimate> EstimateYaw(const PointsRef& source,
   yaw.target_from_source = std::atan2(S, C);
   yaw.curvature = 2.0 * alignment;
 
-  // Summed from residuals: the expanded form of (1) would cancel to nothing
-  // exactly where the fit is good.
+  // Summed from residuals, because the expanded form of (1) would cancel
+  // exactly when the fit is good.
   Eigen::Matrix2d R;
   R << C, -S, S, C;
   R /= alignment;

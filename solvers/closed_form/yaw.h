@@ -6,16 +6,16 @@
 //
 //   yaw = argmin_a  sum_i w_i || xy(t_i) - R(a) xy(s_i) ||^2,             (1)
 //
-// with R(a) the counter-clockwise turn by a and xy() the first two rows.
-// Expanding (1) leaves one sinusoid in a, so the minimum is global and costs
-// one pass over the pairs:
+// with R(a) the counter-clockwise rotation by a and xy() the first two rows.
+// Expanding (1) gives a single sinusoid in a. So the minimum is global and
+// takes one pass over the pairs:
 //
 //   yaw = atan2(S, C),   S = sum_i w_i (s_i x t_i)_z,
 //                        C = sum_i w_i <xy(s_i), xy(t_i)>.                (2)
 //
 // This is the rotation step of Quatro (Lim et al., ICRA 2022): gravity is
-// known, so roll and pitch are not estimated. There, each pair is a difference
-// of two points, which makes (1) free of the translation.
+// known, so roll and pitch are not estimated. Each pair there is a difference
+// of two points, which makes (1) independent of the translation.
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_YAW_H_
 #define QUATRO_SOLVERS_CLOSED_FORM_YAW_H_
@@ -26,24 +26,24 @@
 
 namespace quatro {
 
-// The minimum of (1), and how firmly it is held.
+// The minimum of (1) and its curvature.
 struct YawEstimate {
-  // Turns a direction in the source frame into the target frame.
-  // [rad], in [-pi, pi].
+  // Rotates a direction from the source frame into the target frame. [rad], in
+  // [-pi, pi].
   double target_from_source = 0.0;
 
   // Value of (1) at the minimum [m^2].
   double cost = 0.0;
 
-  // Second derivative of (1) at the minimum [m^2/rad^2]: how firmly the pairs
-  // hold the yaw. With inverse variances [1/m^2] as weights, 2 / curvature is
-  // the variance of the yaw [rad^2].
+  // Second derivative of (1) at the minimum [m^2/rad^2]: how strongly the pairs
+  // constrain the yaw. With inverse variances [1/m^2] as weights, 2 / curvature
+  // is the variance of the yaw [rad^2].
   double curvature = 0.0;
 };
 
-// `source` and `target` hold the pairs column by column; their sizes and that
-// of `weights` must agree. Returns nullopt if the pairs do not determine a yaw:
-// none given, all weights zero, or all mass on the z axis.
+// `source` and `target` hold the pairs column by column. Their sizes and that
+// of `weights` must be equal. Returns nullopt if the pairs do not determine a
+// yaw: there are none, all weights are zero, or all are on the z axis.
 std::optional<YawEstimate> EstimateYaw(const PointsRef& source,
                                        const PointsRef& target,
                                        const WeightsRef& weights);

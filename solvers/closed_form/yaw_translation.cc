@@ -23,7 +23,7 @@ std::optional<YawTranslationEstimate> EstimateYawTranslation(
   const auto yaw = EstimateYaw(p.points, q.points, weights);
   const double floor = RoundingOfMoments(p, q, weights);
   if (!yaw || !(yaw->curvature > floor)) {
-    return std::nullopt;  // Also if a height, which no yaw sees, is NaN.
+    return std::nullopt;  // Also if a height is NaN.
   }
 
   const Eigen::Matrix3d R = RotationZ(yaw->target_from_source);

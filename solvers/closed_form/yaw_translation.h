@@ -6,9 +6,8 @@
 //
 //   yaw, t = argmin  sum_i w_i || q_i - R_z(yaw) p_i - t ||^2.              (1)
 //
-// For any yaw the best t is mean(q) - R_z(yaw) mean(p), the means weighted.
-// What is left is EstimateYaw() for the points about their means, and the
-// height.
+// For any yaw, the best t is mean(q) - R_z(yaw) mean(p) with weighted means.
+// The rest is EstimateYaw() for the points relative to their means.
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_YAW_TRANSLATION_H_
 #define QUATRO_SOLVERS_CLOSED_FORM_YAW_TRANSLATION_H_
@@ -21,25 +20,25 @@
 
 namespace quatro {
 
-// The minimum of (1), and how firmly it is held.
+// The minimum of (1) and its curvature.
 struct YawTranslationEstimate {
   Rigid3 target_from_source;
-  double yaw = 0.0;  // Its rotation, as RotationZ(yaw) [rad], in [-pi, pi].
+  double yaw = 0.0;  // Rotation is RotationZ(yaw) [rad], in [-pi, pi].
 
   // Value of (1) at the minimum [m^2].
   double cost = 0.0;
 
-  // Second derivative of (1) for a turn by a [rad] about the vertical through
-  // the centroid c of the source and a shift by tau [m],
+  // Second derivative of (1) for a rotation by a [rad] about the vertical
+  // through the centroid c of the source and a translation by tau [m],
   //   x -> R_z(yaw + a) (x - c) + R_z(yaw) c + t + tau,    in order (a, tau).
-  // Diagonal: there, the two do not mix.
+  // It is diagonal.
   Eigen::Matrix4d curvature = Eigen::Matrix4d::Zero();
 };
 
-// `source` and `target` hold the points column by column; their sizes and that
-// of `weights` must agree. Nullopt if they do not determine the yaw: fewer than
-// two have weight, those that have are on a vertical in one of the clouds, or
-// NaN.
+// `source` and `target` hold the points column by column. Their sizes and that
+// of `weights` must be equal. Returns nullopt if the points do not determine
+// the yaw: fewer than two have weight, those with weight are on one vertical
+// line in one of the clouds, or one is NaN.
 std::optional<YawTranslationEstimate> EstimateYawTranslation(
     const PointsRef& source,
     const PointsRef& target,

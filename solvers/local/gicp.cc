@@ -15,8 +15,9 @@
 namespace quatro {
 namespace {
 
-// (C + R B R^T)^-1 with a = the normal of C and b = R times that of B:
-// (2 I - s U U^T)^-1 of U = [a b], s = 1 - epsilon, by Woodbury's identity.
+// (C + R B R^T)^-1, where a is the normal of C and b is R times the normal of
+// B: (2 I - s U U^T)^-1 with U = [a b] and s = 1 - epsilon, by Woodbury's
+// identity.
 Eigen::Matrix3d Information(const Eigen::Vector3d& a,
                             const Eigen::Vector3d& b,
                             double epsilon) {

@@ -5,12 +5,12 @@
 //   q_i = the target's point nearest to R p_i + t,
 //   W_i = (C_i + R B_i R^T)^-1,   B, C = I - (1 - epsilon) n n^T,           (1)
 //
-// B of p_i and C of q_i, from the normals n of the surfaces there: known across
-// the surface, epsilon, and not along it, 1. Where the points around show no
-// plane there is no normal, and B or C is I.
+// B belongs to p_i and C to q_i; n are the unit normals of the surfaces there.
+// The variance is epsilon across the surface and 1 along it. If the neighbors
+// of a point show no plane, it has no normal, and its covariance is I.
 //
-// A kernel's width is a distance [m] along surfaces, sqrt(2) of it; across them
-// an error counts 1 / sqrt(epsilon) times.
+// The width of a kernel is sqrt(2) times a distance [m] along surfaces. An
+// error across them counts 1 / sqrt(epsilon) times as much.
 //
 // Source: Segal, Haehnel and Thrun, "Generalized-ICP", RSS 2009.
 
@@ -29,11 +29,11 @@
 
 namespace quatro {
 
-// The loop, and the shape of a plane.
+// Options of the iteration and of the plane model.
 struct GicpOptions {
   LocalAlignmentOptions alignment;
   double epsilon = 1e-3;   // In (0, 1).
-  int num_neighbors = 20;  // For normals, where none are given.
+  int num_neighbors = 20;  // For normals, if none are given.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -46,25 +46,25 @@ std::unique_ptr<AlignmentTerms> MakeGicpTerms(
     double max_correspondence_distance,
     double epsilon);
 
-// Moves the source onto the target, from the given pose on.
+// Aligns the source with the target, starting at the given pose.
 AlignmentSummary SolveGicp(const DescribedCloud& source,
                            const DescribedCloud& target,
                            const Rigid3& initial_target_from_source,
                            const GicpOptions& options);
 
-// The same without trees and normals at hand.
+// Builds trees and normals, then aligns.
 AlignmentSummary SolveGicp(const Points& source,
                            const Points& target,
                            const Rigid3& initial_target_from_source,
                            const GicpOptions& options);
 
-// The direction of least spread of the `num_neighbors` points nearest to each,
-// itself among them.
+// The direction of least variance of the `num_neighbors` points nearest to each
+// point, including itself.
 Points EstimateNearestNormals(const KdTree& tree,
                               int num_neighbors,
                               int num_threads);
 
-// What `solve` makes of two clouds, once their trees and normals are made.
+// Builds trees and normals of both clouds, then returns the result of `solve`.
 AlignmentSummary SolveWithNormals(
     const Points& source,
     const Points& target,
@@ -73,7 +73,7 @@ AlignmentSummary SolveWithNormals(
     const std::function<AlignmentSummary(const DescribedCloud& source,
                                          const DescribedCloud& target)>& solve);
 
-// B or C of (1).
+// The covariance B or C of (1).
 inline Eigen::Matrix3d SurfaceCovariance(const Eigen::Vector3d& normal,
                                          double epsilon) {
   return Eigen::Matrix3d::Identity() -

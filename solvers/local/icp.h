@@ -4,8 +4,9 @@
 //
 //   q_i = the target's point nearest to R p_i + t,    W_i = I.
 //
-// A kernel's width is a distance [m]. On smooth surfaces points hold each other
-// back, so that it creeps; a plane that slides along itself is held.
+// The width of a kernel is a distance [m]. On smooth surfaces convergence is
+// slow, because nearest points resist sliding along the surface. For the same
+// reason, sliding of a plane along itself counts as observable.
 //
 // Source: Besl and McKay, "A Method for Registration of 3-D Shapes", PAMI 1992.
 
@@ -27,13 +28,13 @@ std::unique_ptr<AlignmentTerms> MakeIcpTerms(
     const KdTree& target,
     double max_correspondence_distance);
 
-// Moves the source onto the target, from the given pose on.
+// Aligns the source with the target, starting at the given pose.
 AlignmentSummary SolveIcp(const Points& source,
                           const KdTree& target,
                           const Rigid3& initial_target_from_source,
                           const LocalAlignmentOptions& options);
 
-// The same without a tree at hand.
+// Builds the tree, then aligns.
 AlignmentSummary SolveIcp(const Points& source,
                           const Points& target,
                           const Rigid3& initial_target_from_source,

@@ -20,15 +20,16 @@ namespace {
 
 constexpr Eigen::Index kMinCorrespondences = 3;
 
-// Sums are taken over pieces of this size, then over the pieces in order.
+// Sums are computed over pieces of this size, and then over the pieces in
+// order.
 constexpr Eigen::Index kPiece = 256;
 
-// Conditioning below which a step is rounding.
+// Conditioning below which a step is only rounding error.
 constexpr double kSingular = 1e-10;
 
 constexpr int kMaxNumDampings = 12;
 
-// Rounding of (1), relative.
+// The relative rounding error of (1).
 constexpr double kCostError = 1e-12;
 
 Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
@@ -37,14 +38,14 @@ Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
   return skew;
 }
 
-// (1) and its derivatives, of half of it, at one pose.
+// (1), and the derivatives of half of it, at one pose.
 struct System {
   Matrix6 hessian = Matrix6::Zero();
   Vector6 gradient = Vector6::Zero();
   double cost = 0.0;
   Eigen::Index num_inliers = 0;
 
-  // `moved` is R p + t - middle; e turns into e - w x moved - d.
+  // `moved` is R p + t - centroid. A step changes e to e - w x moved - d.
   void Add(const Eigen::Vector3d& moved,
            const Eigen::Vector3d& error,
            const Eigen::Matrix3d& information,
@@ -71,22 +72,22 @@ struct System {
   }
 };
 
-// The correspondences at one pose, and what follows from them.
+// The correspondences at one pose, and the cost that they define.
 class Problem {
  public:
   Problem(const LocalAlignmentOptions& options, AlignmentTerms* terms)
       : options_(options),
         finder_(*terms),
         source_(terms->source()),
-        middle_(source_.rowwise().mean()),
+        centroid_(source_.rowwise().mean()),
         terms_(static_cast<std::size_t>(source_.cols())),
         is_found_(terms_.size()),
         systems_((terms_.size() + kPiece - 1) / kPiece) {}
 
-  const Eigen::Vector3d& middle() const { return middle_; }
+  const Eigen::Vector3d& centroid() const { return centroid_; }
 
   System Linearize(const Rigid3& pose) {
-    const Eigen::Vector3d moved_middle = pose * middle_;
+    const Eigen::Vector3d moved_centroid = pose * centroid_;
     ForEachPiece([&](std::size_t piece, std::size_t begin, std::size_t end) {
       System system;
       for (std::size_t i = begin; i < end; ++i) {
@@ -95,7 +96,7 @@ class Problem {
         if (!is_found_[i]) continue;
         const Eigen::Vector3d moved =
             pose * Eigen::Vector3d(source_.col(column));
-        system.Add(moved - moved_middle,
+        system.Add(moved - moved_centroid,
                    terms_[i].target - moved,
                    terms_[i].information,
                    options_.kernel);
@@ -109,7 +110,7 @@ class Problem {
     return sum;
   }
 
-  // (1) at another pose with the terms of the last Linearize().
+  // (1) at another pose, with the terms of the last Linearize().
   double Cost(const Rigid3& pose) {
     ForEachPiece([&](std::size_t piece, std::size_t begin, std::size_t end) {
       double cost = 0.0;
@@ -143,15 +144,15 @@ class Problem {
   const LocalAlignmentOptions& options_;
   AlignmentTerms& finder_;
   const Points& source_;
-  Eigen::Vector3d middle_;
+  Eigen::Vector3d centroid_;
   std::vector<AlignmentTerm> terms_;
   std::vector<std::uint8_t> is_found_;
   std::vector<System> systems_;
 };
 
-// `pose` after a turn and a shift about the moved middle.
+// `pose` after a rotation and a translation about the moved centroid.
 Rigid3 Moved(const Rigid3& pose,
-             const Eigen::Vector3d& middle,
+             const Eigen::Vector3d& centroid,
              const Vector6& step) {
   const double angle = step.head<3>().norm();
   const Eigen::Quaterniond turn(
@@ -160,10 +161,11 @@ Rigid3 Moved(const Rigid3& pose,
   const Eigen::Matrix3d rotation = (turn * Eigen::Quaterniond(pose.rotation))
                                        .normalized()
                                        .toRotationMatrix();
-  return {rotation, pose * middle + step.tail<3>() - rotation * middle};
+  return {rotation, pose * centroid + step.tail<3>() - rotation * centroid};
 }
 
-// With w in units of the length that gives both blocks one trace.
+// Eigenvalues with w in units of the length that gives both blocks the same
+// trace.
 using Spectrum = Eigen::SelfAdjointEigenSolver<Matrix6>;
 
 Spectrum ScaledSpectrum(const Matrix6& hessian) {
@@ -174,7 +176,7 @@ Spectrum ScaledSpectrum(const Matrix6& hessian) {
   return Spectrum(scale.asDiagonal() * hessian * scale.asDiagonal());
 }
 
-// The larger half of a direction, in words.
+// Describes the larger half of a direction.
 std::string Describe(const Vector6& direction) {
   const bool is_turn = direction.head<3>().norm() > direction.tail<3>().norm();
   Eigen::Vector3d axis =
@@ -184,12 +186,12 @@ std::string Describe(const Vector6& direction) {
   if (axis[largest] < 0.0) axis = -axis;
   std::ostringstream text;
   text << std::fixed << std::setprecision(2)
-       << (is_turn ? "a turn about (" : "a shift along (") << axis.x() << ", "
-       << axis.y() << ", " << axis.z() << ")";
+       << (is_turn ? "a rotation about (" : "a translation along (") << axis.x()
+       << ", " << axis.y() << ", " << axis.z() << ")";
   return text.str();
 }
 
-// Fills in what is known at the pose where the search ended.
+// Sets the results at the last pose.
 void Conclude(const System& system,
               const Eigen::Vector3d& lever,
               double min_conditioning,
@@ -208,7 +210,7 @@ void Conclude(const System& system,
   const double limit = std::max(min_conditioning, kSingular) * values[5];
   Eigen::Index count = 0;
   while (count < 6 && !(values[count] > limit)) ++count;
-  summary->not_held = spectrum.eigenvectors().leftCols(count);
+  summary->unobservable = spectrum.eigenvectors().leftCols(count);
 }
 
 }  // namespace
@@ -272,7 +274,7 @@ bool CanAlign(const Points& source,
     summary->termination = AlignmentTermination::kInsufficient;
     summary->message = std::string("the ") + cloud + " has " +
                        std::to_string(points.cols()) +
-                       " points, three must correspond";
+                       " points; at least three are required";
     return true;
   };
   return !refuse("source", source) && !refuse("target", target);
@@ -296,7 +298,7 @@ AlignmentSummary AlignLocally(const Rigid3& initial_target_from_source,
   if (terms->source().cols() < kMinCorrespondences) {
     return end(AlignmentTermination::kInsufficient,
                "the source has " + std::to_string(terms->source().cols()) +
-                   " points, three must correspond");
+                   " points; at least three are required");
   }
 
   Problem problem(options, terms);
@@ -306,26 +308,28 @@ AlignmentSummary AlignLocally(const Rigid3& initial_target_from_source,
   for (;;) {
     const System system = problem.Linearize(pose);
     Conclude(system,
-             pose.rotation * problem.middle(),
+             pose.rotation * problem.centroid(),
              options.min_conditioning,
              &summary);
     if (system.num_inliers < kMinCorrespondences) {
-      return end(AlignmentTermination::kInsufficient,
-                 "only " + std::to_string(system.num_inliers) +
-                     " points have a correspondent, three are needed");
+      return end(
+          AlignmentTermination::kInsufficient,
+          "only " + std::to_string(system.num_inliers) +
+              " points have a correspondence; at least three are required");
     }
     if (!system.hessian.allFinite() || !std::isfinite(system.cost)) {
-      return end(AlignmentTermination::kInvalidInput,
-                 "the coordinates are too large");
+      return end(
+          AlignmentTermination::kInvalidInput,
+          "the coordinates are too large; move both clouds near the origin");
     }
     const bool is_last =
         is_converged || static_cast<int>(summary.iterations.size()) >=
                             options.max_num_iterations;
     if (!(summary.conditioning > kSingular) ||
-        (is_last && summary.not_held.cols() > 0)) {
+        (is_last && summary.unobservable.cols() > 0)) {
       return end(AlignmentTermination::kDegenerate,
-                 "the correspondences do not hold " +
-                     Describe(summary.not_held.col(0)));
+                 "the correspondences do not constrain " +
+                     Describe(summary.unobservable.col(0)));
     }
     if (is_last) break;
 
@@ -336,7 +340,7 @@ AlignmentSummary AlignLocally(const Rigid3& initial_target_from_source,
       Matrix6 damped = system.hessian;
       damped.diagonal() *= 1.0 + damping;
       const Vector6 step = -damped.ldlt().solve(system.gradient);
-      const Rigid3 moved = Moved(pose, problem.middle(), step);
+      const Rigid3 moved = Moved(pose, problem.centroid(), step);
       if (problem.Cost(moved) <= system.cost * (1.0 + kCostError)) {
         iteration.rotation_step = step.head<3>().norm();
         iteration.translation_step = step.tail<3>().norm();
@@ -347,7 +351,7 @@ AlignmentSummary AlignLocally(const Rigid3& initial_target_from_source,
       }
       damping = std::max(1e-3, 10.0 * damping);
     }
-    // No step at all: nothing but rounding is left to be gained.
+    // Also true if no step was accepted: only rounding errors are left.
     is_converged =
         iteration.translation_step <= options.translation_tolerance &&
         iteration.rotation_step <= options.rotation_tolerance;

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The nearest point of a cloud to each of many that move a little at a time.
+// The nearest point of a cloud to each of many queries that move a little at a
+// time.
 //
-// A search at x finds the nearest point at distance a and the second at b. At
-// y, |y - x| = m, no other point is nearer than b - m: the nearest is still the
-// same where its distance is less, and none is within reach where a - m is
-// beyond it. Only the rest are searched anew, and the answers are those of a
-// search at each.
+// Suppose a search at x finds the nearest point at distance a and the second
+// nearest at b. At y with |y - x| = m, all other points are at least b - m
+// away. So if the distance of the nearest point is less than b - m, it is still
+// the nearest. If a - m exceeds max_distance, no point is within max_distance.
+// Only the other queries are searched again. The results are those of a search
+// for each query.
 //
 // Source: Greenspan and Godin, "A Nearest Neighbor Method for Efficient ICP",
 // 3DIM 2001, for the idea.
@@ -23,10 +25,10 @@
 
 namespace quatro {
 
-// Nearest points that are looked up anew only where they may have changed.
+// Nearest points that are searched again only if they may have changed.
 class NearestPoints {
  public:
-  // Of `num_queries` points that move; `cloud` must outlive this.
+  // For `num_queries` moving queries. `cloud` must outlive this.
   NearestPoints(const KdTree& cloud,
                 Eigen::Index num_queries,
                 double max_distance)
@@ -34,8 +36,8 @@ class NearestPoints {
         max_distance_(max_distance),
         last_(static_cast<std::size_t>(num_queries)) {}
 
-  // The point nearest to query i, now at `x`, or -1 if none is within
-  // max_distance. May be called for different i from several threads.
+  // The index of the point nearest to query i, now at `x`, or -1 if none is
+  // within max_distance. May be called from several threads for different i.
   Eigen::Index Find(Eigen::Index i, const Eigen::Vector3d& x) {
     Last& last = last_[static_cast<std::size_t>(i)];
     if (last.index >= 0) {

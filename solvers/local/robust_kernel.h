@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Robust kernels of a squared error s >= 0 at a width c > 0,
+// Robust kernels rho(s) of a squared error s >= 0, with width c > 0:
 //
 //   none           s                                       weight 1
 //   Huber          s if s <= c^2, else 2 c sqrt(s) - c^2   min(1, c / sqrt(s))
 //   Cauchy         c^2 log(1 + s / c^2)                    c^2 / (c^2 + s)
 //   Geman-McClure  c^2 s / (c^2 + s)                       (c^2 / (c^2 + s))^2
 //
-// The weight is the derivative; each kernel is s for small s and concave, so
-// that a step which lowers the weighted squares lowers the kernels' sum.
+// The weight is the derivative. Each kernel is concave and behaves like s for
+// small s. So a step that lowers the weighted sum of squares also lowers the
+// sum of the kernels.
 
 #ifndef QUATRO_SOLVERS_LOCAL_ROBUST_KERNEL_H_
 #define QUATRO_SOLVERS_LOCAL_ROBUST_KERNEL_H_

@@ -38,7 +38,8 @@ class VoxelMap {
     first_cell_ = Cell(points_.rowwise().minCoeff());
     last_cell_ = Cell(points_.rowwise().maxCoeff());
     CHECK((last_cell_ - first_cell_).maxCoeff() < kMaxCells);
-    // The mean is moved, not summed, so that large coordinates keep digits.
+    // The mean is updated, not summed, so that large coordinates keep their
+    // digits.
     for (Eigen::Index j = 0; j < points_.cols(); ++j) {
       const Eigen::Vector3d point = points_.col(j);
       Voxel& voxel = voxels_[Key(Cell(point))];
@@ -112,7 +113,7 @@ class VgicpTerms final : public AlignmentTerms {
   VoxelMap voxels_;
 };
 
-// Whether the voxels of a cloud can be numbered.
+// Whether the indices of the voxels fit into a key.
 bool Fits(const Points& points, double voxel_size) {
   if (points.cols() == 0) return true;
   const Eigen::Vector3d width =
@@ -147,7 +148,9 @@ AlignmentSummary SolveVgicp(const DescribedCloud& source,
   AlignmentSummary summary;
   if (!options.IsValid(&summary.message)) return summary;
   if (!Fits(target.points(), options.voxel_size)) {
-    summary.message = "the target is more than 2^21 voxels wide";
+    summary.message =
+        "the target is more than 2^21 voxels wide; remove stray points or "
+        "enlarge voxel_size";
     return summary;
   }
   Stopwatch stopwatch;

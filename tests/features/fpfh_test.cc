@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kBins = kFpfhBinsPerPart;
 
-// A cloud with its normals, in coordinates of multiples of 2^-10 m, which
-// neither moving it to another origin nor single precision rounds.
+// A cloud with normals. Coordinates are multiples of 2^-10 m, so neither moving
+// the origin nor single precision rounds them.
 struct OrientedCloud {
   Points points;
   Points normals;
@@ -47,7 +47,7 @@ Fpfh Describe(const OrientedCloud& cloud, int num_threads = 1) {
                      num_threads);
 }
 
-// Equation (1) as it is written.
+// A direct implementation of (1).
 std::optional<Eigen::Vector3d> PairFeature(const Eigen::Vector3d& p1,
                                            const Eigen::Vector3d& n1,
                                            const Eigen::Vector3d& p2,
@@ -82,7 +82,7 @@ Eigen::MatrixXd WithPartsSummingTo(double sum, Eigen::MatrixXd histograms) {
   return histograms;
 }
 
-// Equation (2) as it is written, over all pairs of the cloud.
+// A direct implementation of (2) over all pairs of the cloud.
 Eigen::MatrixXd BruteForceFpfh(const OrientedCloud& cloud, double radius) {
   const auto& [p, normals] = cloud;
   const Eigen::Index n = p.cols();
@@ -113,7 +113,7 @@ Eigen::MatrixXd BruteForceFpfh(const OrientedCloud& cloud, double radius) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(kFpfhSize);
     int k = 0;
     for (Eigen::Index j = 0; j < n; ++j) {
-      // Points at the same place have no weight in (2).
+      // Coincident points have no weight in (2).
       if (!are_neighbors(i, j) || p.col(i) == p.col(j)) continue;
       sum += spfh.col(j) / (p.col(i) - p.col(j)).norm();
       ++k;
@@ -123,9 +123,10 @@ Eigen::MatrixXd BruteForceFpfh(const OrientedCloud& cloud, double radius) {
   return WithPartsSummingTo(100.0, fpfh);
 }
 
-// Descriptors are the same but for rounding: a feature within single precision
-// of a bin's edge may fall on either side of it, which moves a whole pair, and
-// that is much where there are few. So nearly all are equal, to 1e-3 of 100.
+// Descriptors are equal up to rounding. But a feature within single precision
+// of a bin's edge may fall on either side, which moves a whole pair, and that
+// is much if there are few pairs. So the test requires nearly all to be equal,
+// to 1e-3 of 100.
 void ExpectSameDescriptors(const Eigen::MatrixXd& fpfh,
                            const Eigen::MatrixXd& expected) {
   ASSERT_EQ(fpfh.cols(), expected.cols());
@@ -137,8 +138,8 @@ void ExpectSameDescriptors(const Eigen::MatrixXd& fpfh,
 }
 
 TEST(PairFeature, OfAHandComputedPair) {
-  // The second normal leans towards the line, so its point is the source:
-  // d = -x, v = y, w = (-0.8, 0, 0.6).
+  // The second normal leans toward the line, so its point is the source: d =
+  // -x, v = y, w = (-0.8, 0, 0.6).
   const auto feature =
       ComputePairFeature({0, 0, 0}, {0, 0, 1}, {2, 0, 0}, {0.6f, 0.0f, 0.8f});
   ASSERT_TRUE(feature);
@@ -185,7 +186,7 @@ TEST(PairFeature, DoesNotDependOnWhichPointComesFirst) {
 }
 
 TEST(PairFeature, DoesNotDependOnWhichPointComesFirstForParallelNormals) {
-  // Neither is closer to the line: as on two steps of a stair.
+  // Both normals are equally close to the line, as on two steps of a stair.
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     const auto [p1, n1, p2, n2] = RandomPair(seed);
     for (const Eigen::Vector3f& n : {n1, Eigen::Vector3f(-n1)}) {
@@ -195,7 +196,7 @@ TEST(PairFeature, DoesNotDependOnWhichPointComesFirstForParallelNormals) {
       ASSERT_LT((forward->tail<2>() - backward->tail<2>()).norm(), 1e-5f)
           << "seed " << seed << ": " << forward->transpose() << " and "
           << backward->transpose();
-      // Half a turn either way is the same angle.
+      // Half a rotation either way is the same angle.
       ASSERT_NEAR(
           std::remainder((*forward)[0] - (*backward)[0], 2.0f), 0.0f, 1e-5f);
     }

@@ -53,8 +53,8 @@ std::vector<double> BruteForceNearestDistances(const Points& points,
   return d2;
 }
 
-// `size` points on each side of a grid, `step` [m] apart. Steps that are not
-// powers of two make distances that tie but for rounding.
+// `size` points on each side of a grid, `step` [m] apart. If the step is not a
+// power of two, distances tie up to rounding.
 Points Grid(int size, double step) {
   Points points(3, size * size * size);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -64,7 +64,7 @@ Points Grid(int size, double step) {
   return step * points;
 }
 
-// Ten tight clusters far from one another.
+// Ten tight clusters far apart.
 Points Clusters(Eigen::Index n, std::uint64_t seed) {
   const Points centers = RandomPoints(10, 100.0, seed);
   Points points = RandomPoints(n, 0.01, seed + 1);
@@ -93,7 +93,7 @@ std::vector<NamedCloud> Clouds() {
   };
 }
 
-// Points of the cloud, places between them and places well outside.
+// Points of the cloud, places between them, and places far outside.
 Points Queries(const Points& points) {
   const Eigen::Index n = points.cols();
   if (n == 0) return RandomPoints(5, 1.0, 8);
@@ -109,7 +109,7 @@ Points Queries(const Points& points) {
   return queries;
 }
 
-// A handful of fixed radii, and those that reach points of the cloud exactly.
+// Some fixed radii, and some that reach points of the cloud exactly.
 std::vector<double> Radii(const Points& points, const Eigen::Vector3d& query) {
   std::vector<double> radii = {0.0, 0.01, 0.1, 0.3, 1.0, 3.0, 100.0};
   for (Eigen::Index i = 0; i < points.cols(); i += 1 + points.cols() / 20) {
@@ -118,7 +118,7 @@ std::vector<double> Radii(const Points& points, const Eigen::Vector3d& query) {
   return radii;
 }
 
-// What the tree finds about its point i, in order and bit for bit.
+// The neighbors that the tree finds for its point i, in order and bit for bit.
 bool IsRowOf(const Neighborhoods::Row& row,
              const KdTree& tree,
              Eigen::Index i,
@@ -171,8 +171,8 @@ TEST(KdTree, WithinRadiusIsTheClosedBallInOrderOfIndex) {
 }
 
 TEST(KdTree, PointsExactlyAtTheRadiusAreWithinIt) {
-  // The radius is such that its square is the point's distance, bit for bit;
-  // wide clouds and the corners of grids tempt a tree to prune too early.
+  // The square of the radius is the point's squared distance, bit for bit. Wide
+  // clouds and corners of grids make it likely that a tree prunes too early.
   int num_checked = 0;
   for (const auto& [name, points] : Clouds()) {
     SCOPED_TRACE(name);
@@ -204,7 +204,8 @@ TEST(KdTree, NearestAreTheNearestFirst) {
     for (const auto query : queries.colwise()) {
       for (const int k : {1, 2, 3, 10, 2000}) {
         const auto found = tree.Nearest(query, k);
-        // Of equal distances any may come first: indices are not compared.
+        // Points at equal distances may come in any order, so indices are not
+        // compared.
         const auto expected = BruteForceNearestDistances(points, query, k);
         ASSERT_EQ(found.size(), expected.size()) << "k = " << k;
         std::vector<Eigen::Index> indices;
@@ -231,7 +232,7 @@ TEST(KdTree, NearestWithinIsTheNearestIfThereIsOne) {
   int num_found = 0;
   for (const auto query : queries.colwise()) {
     const Neighbor nearest = tree.Nearest(query, 1).front();
-    // The ball is closed.
+    // The ball includes its boundary.
     const double distance = std::sqrt(nearest.squared_distance);
     for (const double radius : {0.5, distance * (1.0 + 1e-12)}) {
       const auto found = tree.NearestWithin(query, radius);
@@ -245,7 +246,7 @@ TEST(KdTree, NearestWithinIsTheNearestIfThereIsOne) {
   }
   EXPECT_GT(num_found, 220);
   EXPECT_LT(num_found, 380);
-  // Itself, at no distance; and exactly at the radius.
+  // The point itself at distance zero, and one exactly at the radius.
   EXPECT_EQ(tree.NearestWithin(points.col(3), 0.0)->index, 3);
   EXPECT_TRUE(KdTree(Points::Zero(3, 1)).NearestWithin({3.0, 0.0, 4.0}, 5.0));
 }

@@ -33,7 +33,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::IsSubsetOf;
 
-// Uniform in [0, 100), as bins of a histogram; no two distances tie.
+// Uniform in [0, 100), like bins of a histogram. No two distances tie.
 Fpfh RandomDescriptors(Eigen::Index n, std::uint64_t seed) {
   Random random(seed);
   return Fpfh::NullaryExpr(kFpfhSize, n, [&] {
@@ -41,18 +41,20 @@ Fpfh RandomDescriptors(Eigen::Index n, std::uint64_t seed) {
   });
 }
 
-// Few different bins, all of them 0 or 1: most distances tie, all are exact.
+// Few different descriptors with bins of 0 or 1: most distances tie, and all
+// are exact.
 Fpfh TyingDescriptors(Eigen::Index n, std::uint64_t seed) {
   Random random(seed);
   Fpfh descriptors = Fpfh::Zero(kFpfhSize, n);
-  if (n == 0) return descriptors;  // Rows of nothing have no address.
+  if (n == 0) return descriptors;  // Empty rows have no address.
   descriptors.bottomRows<5>() = Fpfh::NullaryExpr(kFpfhSize, n, [&] {
                                   return static_cast<float>(random.Below(2));
                                 }).bottomRows<5>();
   return descriptors;
 }
 
-// Nearest of equal distances is the lower index; zero is nobody's, and -1.
+// If distances are equal, the lower index wins. All-zero descriptors match
+// nothing: -1.
 std::vector<int> BruteForceNearest(const Fpfh& queries, const Fpfh& targets) {
   std::vector<int> nearest;
   for (const auto query : queries.colwise()) {
@@ -84,8 +86,9 @@ std::vector<Match> BruteForceMatches(const Fpfh& source, const Fpfh& target) {
   return matches;
 }
 
-// The same by single precision, term by term: matches of whatever is finite,
-// and of equal sums the lower index, are to be those to the last bit.
+// The reference in single precision, summed term by term. The matches must be
+// equal to it bit for bit for all finite descriptors, and ties must go to the
+// lower index.
 std::vector<int> SinglePrecisionNearest(const Fpfh& queries,
                                         const Fpfh& targets) {
   const auto is_descriptor = [](const auto& x) {
@@ -126,8 +129,9 @@ std::vector<Match> SinglePrecisionMatches(const Fpfh& source,
   return matches;
 }
 
-// As of surfaces: near one of a few kinds, along few directions, with copies
-// and with some that differ by little more than rounding.
+// Descriptors like those of surfaces: near one of a few kinds, spread along few
+// directions, with copies and with pairs that differ by little more than
+// rounding.
 Fpfh ClusteredDescriptors(Eigen::Index n, std::uint64_t seed) {
   const Fpfh kinds = RandomDescriptors(5, 100);
   const Fpfh directions = RandomDescriptors(3, 101).array() - 50.0f;
@@ -166,7 +170,7 @@ void ExpectSinglePrecisionMatches(const Fpfh& source, const Fpfh& target) {
   }
 }
 
-// Sizes about the multiples of the 16 targets of a tile.
+// Sizes around multiples of the 16 targets of a tile.
 constexpr Eigen::Index kSizes[] = {
     0, 1, 2, 3, 4, 5, 15, 16, 17, 31, 63, 64, 65, 130};
 
@@ -202,7 +206,7 @@ TEST(MatchMutualNearest, OfEqualDistancesTheLowerIndexWins) {
 }
 
 TEST(MatchMutualNearest, IsSinglePrecisionToTheLastBitByAnyInstructions) {
-  // More than the 256 of a box, and fewer than in two.
+  // More than the 256 of one box, and fewer than in two.
   for (const auto& [m, n] :
        {std::pair{900, 700}, {700, 900}, {257, 300}, {30, 511}}) {
     SCOPED_TRACE(m);
@@ -277,7 +281,8 @@ TEST(MatchMutualNearest, SwappingTheCloudsSwapsTheMatches) {
 }
 
 TEST(MatchMutualNearest, ZeroDescriptorsMatchNothing) {
-  // Not even where zero would be nearest, or is on both sides.
+  // All-zero descriptors match nothing, even if zero is the nearest or is in
+  // both sets.
   Fpfh source = RandomDescriptors(50, 1);
   Fpfh target = 1e-3f * RandomDescriptors(70, 2);
   for (const Eigen::Index i : {0, 3, 16, 49}) source.col(i).setZero();
@@ -306,8 +311,8 @@ TEST(MatchMutualNearest, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-// Matches of a cloud with its moved self, of which the first are then given
-// wrong partners.
+// Matches of a cloud with its transformed copy. The first matches get incorrect
+// partners.
 class TupleTestTest : public ::testing::Test {
  protected:
   static constexpr int kNumMatches = 300;
@@ -360,8 +365,9 @@ TEST_F(TupleTestTest, ScaledMatchesPassUpToTheScale) {
 }
 
 TEST_F(TupleTestTest, MostOutliersFail) {
-  // Half of the matches are wrong. Those pass by chance, each in one of the 300
-  // triples it is drawn into; the right ones are in 75 wholly right triples.
+  // Half of the matches are outliers. They pass only by chance, each in one of
+  // the 300 triples it is drawn into. Each inlier is in 75 triples of inliers
+  // only.
   constexpr int kNumOutliers = kNumMatches / 2;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const auto kept = FilterByTupleTest(

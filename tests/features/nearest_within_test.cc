@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// By all distances.
+// The reference: computes all distances.
 std::int32_t NearestOf(const Points& points,
                        const Eigen::Vector3d& place,
                        double radius) {
@@ -38,7 +38,7 @@ TEST(FindNearestWithin, IsTheNearestOfAll) {
   const Points street = RandomStreet(800, 0.02, 1);
   const Points far_off = street.colwise() + Eigen::Vector3d(1e7, -1e7, 3.0);
   for (const Points& points : {street, far_off}) {
-    // Beside the points, around all of them and beyond.
+    // Places next to the points, around all of them, and beyond.
     Points places = RandomPoints(1000, 40.0, 2);
     places.colwise() += points.rowwise().mean();
     places.leftCols(500) = points.leftCols(500) + RandomPoints(500, 0.4, 3);

@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Row i: i, i + 1, ..; distances the halves of these.
+// Row i has indices i, i + 1, .. and half of these as distances.
 void Write(Eigen::Index i,
            std::size_t size,
            NeighborhoodsBuilder::Writer* writer) {
@@ -52,7 +52,7 @@ TEST(Neighborhoods, RowsAreWhatWasWritten) {
 }
 
 TEST(Neighborhoods, RowsOfManyBlocksAndThreadsStayWhereTheyAre) {
-  // Rows longer than what is left of a block, and one longer than any block.
+  // Rows longer than the rest of a block, and one longer than any block.
   constexpr Eigen::Index kNum = 3000;
   const auto size_of = [](Eigen::Index i) {
     return i == 1500 ? std::size_t{600000} : static_cast<std::size_t>(i % 997);

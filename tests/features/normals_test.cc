@@ -28,7 +28,7 @@ Points Normals(const Points& points,
                          1);
 }
 
-// The largest angle [rad] between two sets of directions; signs count. Pi if
+// The largest angle [rad] between two sets of directions, sign included. Pi if
 // one of them is zero.
 double LargestAngle(const Points& a, const Points& b) {
   double largest = 0.0;
@@ -59,7 +59,7 @@ TEST(EstimateNormals, OfASphereSeenFromItsCenterPointInwards) {
 }
 
 TEST(EstimateNormals, OfACylinderSeenFromItsAxisPointInwards) {
-  // Away from the rims, where the neighbourhood lies to one side.
+  // Away from the edges, where all neighbors are on one side.
   const Surface cylinder = RandomCylinder(20000, 5.0, 10.0, 1);
   const Points normals = Normals(cylinder.points, kRadius, {0.0, 0.0, 5.0});
   double largest = 0.0;
@@ -75,7 +75,7 @@ TEST(EstimateNormals, OfACylinderSeenFromItsAxisPointInwards) {
 }
 
 TEST(EstimateNormals, MinimizeTheSpread) {
-  // The header's definition, by the singular values of the centred points.
+  // The header's definition by the singular values of the centered points.
   const Points points = RandomStreet(3000, 0.03, 1);
   const KdTree tree(points);
   const Points normals = Normals(points, kRadius, {0.0, 0.0, 0.0});
@@ -101,7 +101,7 @@ TEST(EstimateNormals, MinimizeTheSpread) {
 }
 
 TEST(EstimateNormals, OfANarrowStripArePerpendicularToIt) {
-  // As of neighbouring rings of a scanner on the ground.
+  // Like neighboring rings of a scanner on the ground.
   for (const double width : {0.5, 0.1, 0.02, 0.01}) {
     Surface strip = RandomPlane(500, 1.0, 1);
     strip.points.row(1) *= width;
@@ -176,7 +176,7 @@ TEST(EstimateNormals, RadiusMayBeSmallerThanTheNeighborhoods) {
 }
 
 TEST(EstimateNormals, FarFromTheOriginAreTheSame) {
-  // At 1e7 m a coordinate is known to 2e-9 m.
+  // At 1e7 m a coordinate has a resolution of 2e-9 m.
   const Points points = RandomStreet(2000, 0.03, 1);
   const Neighborhoods neighborhoods =
       FindNeighborhoods(KdTree(points), kRadius, 1);
@@ -197,7 +197,7 @@ TEST(EstimateNormals, FarFromTheOriginAreTheSame) {
 }
 
 TEST(EstimateNormals, AreZeroForFewerThanThreePoints) {
-  // One point by itself, two together, three together.
+  // One isolated point, two together, three together.
   const Points points{
       {0, 10, 10, 20, 20, 20.1}, {0, 0, 0.1, 0, 0.1, 0}, {0, 0, 0, 0, 0, 0}};
   const Points normals = Normals(points, 1.0, {0.0, 0.0, 5.0});

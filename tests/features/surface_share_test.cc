@@ -13,7 +13,7 @@
 namespace quatro {
 namespace {
 
-// A wall as few beams see it: rows `gap` apart of points 0.02 m apart.
+// A wall scanned by few beams: rows `gap` apart of points 0.02 m apart.
 Points Rows(int num_rows, double gap) {
   constexpr int kPerRow = 300;
   Points points(3, num_rows * kPerRow);
@@ -38,7 +38,7 @@ TEST(SurfaceShare, RowsAreASurfaceOnceTheRadiusReachesTheNext) {
 }
 
 TEST(SurfaceShare, HalfAWallIsHalf) {
-  // Rows near to each other, and as many points on rows far apart.
+  // Rows close to each other, and as many points on rows far apart.
   Points both(3, 12000);
   both << Rows(20, 0.1), Rows(20, 2.0).colwise() + Eigen::Vector3d(50, 0, 0);
   EXPECT_NEAR(Share(both, 0.3), 0.5, 0.01);

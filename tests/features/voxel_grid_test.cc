@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// Fixed point drops less than 2^-32 of a cell from each coordinate.
+// Fixed point truncates less than 2^-32 of a cell from each coordinate.
 constexpr double kResolution = 0x1p-31;  // [cells]
 
 Points Sample(const Points& points, double voxel_size) {
@@ -42,7 +42,8 @@ std::string ErrorOf(const Points& points, double voxel_size) {
   return error;
 }
 
-// The header's definition, word for word; a map is in the order promised.
+// A direct implementation of the header's definition. A map has the promised
+// order.
 Points BruteForceSample(const Points& points, double voxel_size) {
   struct Cell {
     Eigen::Matrix<long double, 3, 1> sum{0.0L, 0.0L, 0.0L};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// For tests of local registration: (1) of solvers/local/local_alignment.h as
-// the definition says it, and as a Ceres problem.
+// For tests of local registration: (1) of solvers/local/local_alignment.h by
+// its definition, and as a Ceres problem.
 
 #ifndef QUATRO_TESTS_SUPPORT_ALIGNMENT_PROBLEMS_H_
 #define QUATRO_TESTS_SUPPORT_ALIGNMENT_PROBLEMS_H_
@@ -20,19 +20,19 @@
 
 namespace quatro {
 
-struct HeldTerm {
+struct FixedTerm {
   Eigen::Vector3d source;
   AlignmentTerm term;
 };
 
-inline std::vector<HeldTerm> HoldTerms(const Rigid3& pose,
+inline std::vector<FixedTerm> FixTerms(const Rigid3& pose,
                                        AlignmentTerms* terms) {
-  std::vector<HeldTerm> held;
+  std::vector<FixedTerm> terms_at_pose;
   for (Eigen::Index i = 0; i < terms->source().cols(); ++i) {
-    HeldTerm one{terms->source().col(i), {}};
-    if (terms->Find(i, pose, &one.term)) held.push_back(one);
+    FixedTerm one{terms->source().col(i), {}};
+    if (terms->Find(i, pose, &one.term)) terms_at_pose.push_back(one);
   }
-  return held;
+  return terms_at_pose;
 }
 
 // R <- exp(w) R, t <- t + d.
@@ -45,11 +45,11 @@ inline Rigid3 Perturbed(const Rigid3& pose, const Vector6& delta) {
   return {turn * pose.rotation, pose.translation + delta.tail<3>()};
 }
 
-inline double HeldCost(const std::vector<HeldTerm>& held,
-                       const Rigid3& pose,
-                       const RobustKernel& kernel = {}) {
+inline double FixedCost(const std::vector<FixedTerm>& terms_at_pose,
+                        const Rigid3& pose,
+                        const RobustKernel& kernel = {}) {
   double cost = 0.0;
-  for (const HeldTerm& one : held) {
+  for (const FixedTerm& one : terms_at_pose) {
     const Eigen::Vector3d e = one.term.target - pose * one.source;
     cost += kernel.Cost(e.dot(one.term.information * e));
   }
@@ -57,8 +57,8 @@ inline double HeldCost(const std::vector<HeldTerm>& held,
 }
 
 // L^T (q - R p - t), where W = L L^T.
-struct HeldResidual {
-  using CostFunction = ceres::AutoDiffCostFunction<HeldResidual, 3, 4, 3>;
+struct FixedTermResidual {
+  using CostFunction = ceres::AutoDiffCostFunction<FixedTermResidual, 3, 4, 3>;
 
   template <typename T>
   bool operator()(const T* r, const T* t, T* residual) const {
@@ -102,22 +102,23 @@ inline ceres::LossFunction* MakeCeresLoss(const RobustKernel& kernel) {
   return nullptr;
 }
 
-// The minimum of (1) with the terms held, from a pose.
-inline Rigid3 SolveHeldByCeres(const std::vector<HeldTerm>& held,
-                               const Rigid3& pose,
-                               const RobustKernel& kernel) {
+// The minimum of (1) with the terms fixed, from a pose.
+inline Rigid3 SolveFixedByCeres(const std::vector<FixedTerm>& terms_at_pose,
+                                const Rigid3& pose,
+                                const RobustKernel& kernel) {
   Eigen::Quaterniond rotation(pose.rotation);
   Eigen::Vector3d translation = pose.translation;
   ceres::Problem problem;
   problem.AddParameterBlock(
       rotation.coeffs().data(), 4, new ceres::EigenQuaternionManifold);
-  for (const HeldTerm& one : held) {
+  for (const FixedTerm& one : terms_at_pose) {
     const Eigen::Matrix3d root = one.term.information.llt().matrixU();
-    problem.AddResidualBlock(new HeldResidual::CostFunction(new HeldResidual{
-                                 one.source, one.term.target, root}),
-                             MakeCeresLoss(kernel),
-                             rotation.coeffs().data(),
-                             translation.data());
+    problem.AddResidualBlock(
+        new FixedTermResidual::CostFunction(
+            new FixedTermResidual{one.source, one.term.target, root}),
+        MakeCeresLoss(kernel),
+        rotation.coeffs().data(),
+        translation.data());
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;

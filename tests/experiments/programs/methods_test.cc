@@ -47,7 +47,8 @@ TEST(Methods, EachTellsSizesThatDiffer) {
     const PoseSummary summary = Solve(name, problem);
     EXPECT_EQ(summary.termination, PoseTermination::kInvalidInput) << name;
     EXPECT_EQ(summary.message,
-              "50 source points are matched with 10 target points")
+              "50 source points but 10 target points; equal numbers are "
+              "required")
         << name;
   }
 }

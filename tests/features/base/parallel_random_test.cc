@@ -63,7 +63,7 @@ TEST(Random, ConsecutiveSeedsShareNoDraw) {
 }
 
 // Pearson's statistic of counts that should be equal: about 1 per degree of
-// freedom. Five standard deviations above that, the draws are not uniform.
+// freedom. If it is five standard deviations larger, the draws are not uniform.
 void ExpectUniform(const std::vector<int>& counts) {
   double total = 0.0;
   for (const int count : counts) total += count;
@@ -173,7 +173,7 @@ TEST(Parallel, OneThreadIsTheCallers) {
 }
 
 TEST(Parallel, SeveralThreadsRunAtOnce) {
-  // Each piece waits for the other: one thread alone would never get through.
+  // Each piece waits for the other, so one thread alone would hang.
   std::atomic<int> num_arrived{0};
   ParallelFor(2, 2, 1, [&](Eigen::Index, Eigen::Index) {
     ++num_arrived;
@@ -182,7 +182,7 @@ TEST(Parallel, SeveralThreadsRunAtOnce) {
   EXPECT_THAT(num_arrived.load(), Ge(2));
 }
 
-// From whichever thread; and none is left running.
+// An exception of any thread is rethrown, and no thread is left running.
 TEST(Parallel, WhatTheBodyThrowsReachesTheCaller) {
   for (const int num_threads : {1, 2, 8}) {
     for (const Eigen::Index bad : {0, 50, 99}) {
@@ -213,7 +213,7 @@ TEST(Parallel, AfterAThrowNoPieceIsBegun) {
   EXPECT_EQ(num_begun, 1);
 }
 
-// A stack of 2^50 bytes is not to be had.
+// A stack of 2^50 bytes cannot be allocated.
 TEST(Parallel, DoesWithoutThreadsThatCannotBeStarted) {
   pthread_attr_t before, huge;
   ASSERT_EQ(pthread_getattr_default_np(&before), 0);

@@ -131,7 +131,7 @@ TEST_F(AngleBetweenTest, IsTheAngleOfTheTurnBetween) {
 }
 
 TEST_F(AngleBetweenTest, HasAllDigitsOfASmallAngle) {
-  // By the trace, anything below 1e-8 rad is lost.
+  // The trace would lose angles below 1e-8 rad.
   const Eigen::Matrix3d tiny = RotationZ(1e-9);
   EXPECT_NEAR(AngleBetween(Eigen::Matrix3d::Identity(), tiny), 1e-9, 1e-24);
   EXPECT_NEAR(AngleBetween(base_, Turned(1e-9)), 1e-9, 1e-15);

@@ -18,7 +18,7 @@ using Zeros = ZeroedVector<std::uint64_t>;
 
 TEST(ZeroedAllocator, IsZeroAndCanBeWrittenAtAnySize) {
   constexpr std::size_t kHugePage = (std::size_t{1} << 21) / 8;
-  // The second time memory may be that of the first.
+  // The second allocation may get the memory of the first.
   for (int round = 0; round < 2; ++round) {
     for (const std::size_t size : {std::size_t{1},
                                    std::size_t{1000},

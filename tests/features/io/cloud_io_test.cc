@@ -45,7 +45,7 @@ using ::testing::StartsWith;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-// The bytes of `values`, little-endian as this machine.
+// The bytes of `values`. This machine is little-endian.
 template <typename T>
 std::string Little(std::initializer_list<T> values) {
   std::string bytes;
@@ -81,7 +81,7 @@ std::string AsciiPly(const std::string& num_points, const std::string& body) {
   return Ply("ascii", "element vertex " + num_points + "\n" + kXyz, body);
 }
 
-// A PCD header of float x y z.
+// A PCD header with fields float x y z.
 std::string PcdXyz(const std::string& num_points, const std::string& data) {
   return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n"
          "COUNT 1 1 1\nWIDTH " +
@@ -101,7 +101,7 @@ std::string Compressed(const std::string& data) {
          compressed;
 }
 
-// 1 2 3 and 4 5 6, field by field.
+// The points 1 2 3 and 4 5 6, field by field.
 const std::string kTwoByField = Little({1.0f, 4.0f, 2.0f, 5.0f, 3.0f, 6.0f});
 
 PointCloud RandomCloud(Eigen::Index num_points, bool has_intensity) {
@@ -117,7 +117,7 @@ PointCloud RandomCloud(Eigen::Index num_points, bool has_intensity) {
   return cloud;
 }
 
-// Root may read and write everything: be nobody for a while.
+// Drops root's rights for a while, because root may read and write everything.
 class WithoutRoot {
  public:
   WithoutRoot() {
@@ -135,7 +135,7 @@ class WithoutRoot {
   const bool is_root_ = geteuid() == 0;
 };
 
-// A directory of its own, removed afterwards.
+// A temporary directory, removed afterwards.
 class CloudIoTest : public ::testing::Test {
  protected:
   CloudIoTest() {
@@ -156,7 +156,7 @@ class CloudIoTest : public ::testing::Test {
     return PathOf(name);
   }
 
-  // Of a file that must be readable.
+  // Reads a file that must be readable.
   PointCloud Read(const std::string& name, const std::string& bytes) const {
     std::string error;
     const auto cloud = ReadCloud(Write(name, bytes), &error);
@@ -164,7 +164,7 @@ class CloudIoTest : public ::testing::Test {
     return cloud.value_or(PointCloud());
   }
 
-  // Why a file is refused, without its path.
+  // The reason why a file is rejected, without its path.
   std::string ErrorOf(const std::string& name, const std::string& bytes) const {
     return ErrorAt(Write(name, bytes));
   }
@@ -189,7 +189,7 @@ class CloudIoTest : public ::testing::Test {
   std::string directory_;
 };
 
-// The two points of most samples below.
+// The two points of most test files below.
 void ExpectTwoPoints(const PointCloud& cloud) {
   Points expected(3, 2);
   expected << 1, 4, 2, 5, 3, 6;
@@ -198,7 +198,7 @@ void ExpectTwoPoints(const PointCloud& cloud) {
   EXPECT_EQ(cloud.num_dropped, 0);
 }
 
-// Path and place first, then the reason.
+// An error starts with path and place, followed by the reason.
 
 TEST_F(CloudIoTest, RefusesAMissingFile) {
   EXPECT_THAT(ErrorAt(PathOf("none.ply")),
@@ -592,7 +592,7 @@ TEST_F(CloudIoTest, PcdCompressedAtTheBestRatioOfLzf) {
   EXPECT_EQ(cloud.points, Points::Zero(3, 100000));
 }
 
-// Another order, every size, COUNT > 1 and padding.
+// Fields in another order, of every size, with COUNT > 1 and padding.
 constexpr char kManyFields[] =
     "VERSION .6\r\nPOINTS 2\r\nTYPE I F U F U I F\r\nSIZE 1 4 2 8 1 8 4\r\n"
     "FIELDS z hist _ y label x intensity\r\nCOUNT 1 2 3 1 1 1 1\r\n"
@@ -649,7 +649,7 @@ TEST_F(CloudIoTest, PcdCountAndPointsMayBeMissing) {
                        "WIDTH 2\nHEIGHT 1\nDATA ascii\n1 2 3\n4 5 6\n"));
 }
 
-// PcdXyz("2", data), changed.
+// PcdXyz("2", data) with one replacement.
 std::string PcdWith(const std::string& from,
                     const std::string& to,
                     const std::string& data = "ascii") {
@@ -775,7 +775,7 @@ TEST_F(CloudIoTest, PcdRefusesCompressedDataOfAnotherSize) {
   EXPECT_EQ(ErrorOf("a.pcd",
                     PcdXyz("3", "binary_compressed") + Compressed(kTwoByField)),
             "DATA binary_compressed: 24 bytes are not 3 points of 12 bytes");
-  // The header agrees, the stream does not.
+  // The header is consistent, but the stream is not.
   std::string body = Compressed(kTwoByField);
   body.replace(4, 4, Little<std::uint32_t>({36}));
   EXPECT_THAT(ErrorOf("a.pcd", PcdXyz("3", "binary_compressed") + body),
@@ -841,7 +841,7 @@ TEST_F(CloudIoTest, PcdComesBackRoundedToFloat) {
   }
 }
 
-// Leaves no trace: neither the file nor a temporary one.
+// A failed write leaves neither the file nor a temporary one.
 class CloudIoWriteErrorTest : public CloudIoTest {
  protected:
   std::string WriteErrorOf(const PointCloud& cloud, const std::string& path) {
@@ -925,7 +925,7 @@ TEST_F(CloudIoTest, ReplacesAFileAndLeavesNoOther) {
   EXPECT_EQ(NumFiles(), 1u);
 }
 
-// Any bytes at all: a cloud that keeps its promises, or an error in one line.
+// For arbitrary bytes, the result is a valid cloud or a one-line error.
 TEST(CloudParserTest, SurvivesDamagedFiles) {
   const std::string list_elements =
       "element face 1\nproperty list uchar int i\nelement vertex 2\n"
@@ -1003,7 +1003,7 @@ TEST(CloudParserTest, SurvivesDamagedFiles) {
       }
     }
   }
-  EXPECT_GT(num_clouds, 100);  // Damage must reach beyond the headers.
+  EXPECT_GT(num_clouds, 100);  // Damage must go beyond the headers.
   EXPECT_GT(num_errors, 100);
 }
 

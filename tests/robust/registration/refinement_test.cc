@@ -140,7 +140,7 @@ TEST_F(RefinementTest, ABarePlaneIsRefusedWithItsDirection) {
   const Prepared b(RandomPlane(2000, 20.0, 2).points);
   const RefinementSummary summary = quatro::Refine(
       a.cloud(), b.cloud(), Points(3, 0), Points(3, 0), 0.3, {}, options_);
-  ExpectKept(summary, {}, "do not hold a");
+  ExpectKept(summary, {}, "do not constrain a");
   EXPECT_EQ(summary.alignment.termination, AlignmentTermination::kDegenerate);
 }
 

@@ -88,8 +88,8 @@ TEST_F(SurfaceObservabilityTest, PositionAlongACorridorIsNamed) {
   EXPECT_EQ(hold->unobservable[0].freedom, Freedom::kTranslation);
   EXPECT_NEAR(std::abs(hold->unobservable[0].axis.dot(along)), 1.0, 1e-9);
   EXPECT_EQ(hold->unobservable[0].Describe(),
-            "position along the axis (0.94, 0.34, 0.00): no surface stands "
-            "across it");
+            "position along the axis (0.94, 0.34, 0.00): no surface "
+            "constrains it");
   EXPECT_NEAR(std::abs(hold->weakest_level_axis.dot(along)), 1.0, 1e-9);
   EXPECT_NEAR(hold->weakest_level_share, 0.0, 1e-9);
   EXPECT_GT(hold->num_structure, 5000);

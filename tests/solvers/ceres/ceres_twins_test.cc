@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Closed forms against their Ceres twins, and the twins' parts by themselves.
+// Compares closed forms with their Ceres twins, and tests the parts of the
+// twins.
 
 #include "solvers/ceres/ceres_twins.h"
 
@@ -26,13 +27,13 @@ namespace {
 
 constexpr int kNumProblems = 1000;
 
-// Of argmin [rad, m], cost and curvature (relative).
+// Tolerances of the argmin [rad, m], the cost and the curvature (relative).
 constexpr double kTolerance = 1e-8;
 
 // A problem is ill-conditioned if the least curvature of its rotation is below
-// the first part of sum_i w_i |s_i| |t_i| about the means or the second of that
-// about the origin: there, rounding (1e-16) and the 50 m to the origin alone
-// move the answer by 1e-9.
+// the first fraction of sum_i w_i |s_i| |t_i| about the means, or the second
+// fraction of that sum about the origin. There, rounding (1e-16) and the 50 m
+// to the origin alone move the estimate by 1e-9.
 constexpr double kMinConditioning = 1e-5;
 constexpr double kMinConditioningFarAway = 1e-8;
 
@@ -52,8 +53,8 @@ struct WeightedPairs {
   }
 };
 
-// 1 to 60 pairs, a fifth of them without weight, weights of any size, noise
-// from none to twice the signal.
+// 1 to 60 pairs. A fifth of them have no weight; weights vary over many orders
+// of magnitude; noise ranges from zero to twice the signal.
 WeightedPairs RandomPairs(const Eigen::Matrix3d& rotation, std::uint64_t seed) {
   Random random(seed);
   const auto n = static_cast<Eigen::Index>(1 + random.Below(60));
@@ -72,14 +73,14 @@ WeightedPairs RandomPairs(const Eigen::Matrix3d& rotation, std::uint64_t seed) {
   return pairs;
 }
 
-// `pairs` with both clouds somewhere else.
+// `pairs` with both clouds translated.
 WeightedPairs Moved(WeightedPairs pairs, std::uint64_t seed) {
   pairs.source.colwise() += 50.0 * RandomDirection(Mix(seed) + 3);
   pairs.target.colwise() += 50.0 * RandomDirection(Mix(seed) + 4);
   return pairs;
 }
 
-// About the weighted means.
+// Coordinates relative to the weighted means.
 WeightedPairs Centered(WeightedPairs pairs) {
   const double total = pairs.weights.sum();
   const Eigen::Vector3d p = pairs.source * pairs.weights / total;
@@ -99,7 +100,8 @@ double LeastEigenvalue(const Eigen::MatrixXd& symmetric) {
   return symmetric.selfadjointView<Eigen::Lower>().eigenvalues()[0];
 }
 
-// The sum of squares of numbers this large has an error even where it is zero.
+// Rounding gives a sum of squares of numbers this large an error even if the
+// sum is zero.
 double CostTolerance(const WeightedPairs& pairs, double cost) {
   return kTolerance * cost + 1e-22 * pairs.SquaredReach();
 }
@@ -240,11 +242,11 @@ class CeresTwinTest : public ::testing::Test {
   const Weights weights_ = RandomPoints(kNumPairs, 1.0, 3).row(0).cwiseAbs();
 };
 
-// The starts at which (1) is flat: exactly at each half turn from the minimum.
+// The starts at which (1) is flat: exactly half a rotation from the minimum.
 TEST_F(CeresTwinTest, FindsTheMinimumFromEveryHalfTurn) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Eigen::Matrix3d R = RandomRotation(seed);
-    // Principal axes along x, y, z, so that the half turns are flat points.
+    // Principal axes are along x, y, z, so half rotations are flat points.
     Points axes(3, 6);
     axes << Eigen::Matrix3d::Identity(), -Eigen::Matrix3d::Identity();
     const Points source = Eigen::Vector3d(5.0, 3.0, 2.0).asDiagonal() * axes;
@@ -322,7 +324,7 @@ TEST_F(CeresTwinTest, UndeterminedIsUsableWithASingularCurvature) {
             1e-12 * twin.estimate.curvature.norm());
 }
 
-// At a poor fit, where the residuals' own second derivative matters.
+// The fit is poor, so the residuals' own second derivative matters.
 TEST_F(CeresTwinTest, CurvatureIsTheSecondDifferenceOfTheCost) {
   const Points target =
       RandomRotation(7) * source_ + RandomPoints(kNumPairs, 8.0, 8);
@@ -401,7 +403,7 @@ TEST(AnalyticYawResidual, AgreesWithAutomaticDerivatives) {
     EXPECT_LT((wrt_turn[0] - wrt_turn[1]).norm(), 1e-12);
     EXPECT_LT((wrt_shift[0] - wrt_shift[1]).norm(), 1e-12);
 
-    // Each Jacobian alone, as Ceres asks for when a block is constant.
+    // Each Jacobian alone, as Ceres requests it if a block is constant.
     RowMajor32 alone;
     double* only_turn[2] = {alone.data(), nullptr};
     ASSERT_TRUE(by_hand.Evaluate(parameters, residual[0].data(), only_turn));

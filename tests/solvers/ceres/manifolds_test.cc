@@ -45,8 +45,8 @@ TEST(UnitCircleManifold, IsSmoothWhereAnAngleWouldJump) {
   EXPECT_NEAR(delta, 0.02, 1e-12);
 }
 
-// Perturb() of a group against exp in double: right to second order, so that
-// the error of a step h is of third order.
+// Compares Perturb() of a group with exp in double. Perturb() is accurate to
+// second order, so the error of a step h is of third order.
 TEST(Groups, PerturbIsTheExponentialToSecondOrder) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Eigen::Quaterniond q(RandomRotation(seed));

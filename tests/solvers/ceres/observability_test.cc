@@ -18,7 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Of points that may only be off along their normals, about `center`.
+// The information, about `center`, of points that are constrained only along
+// their normals.
 Matrix6 SurfaceInformation(const Surface& surface,
                            const Eigen::Vector3d& center) {
   Matrix6 information = Matrix6::Zero();
@@ -32,8 +33,8 @@ Matrix6 SurfaceInformation(const Surface& surface,
   return information;
 }
 
-std::vector<DirectionInformation> NotHeldBy(const Surface& surface,
-                                            const Eigen::Vector3d& center) {
+std::vector<DirectionInformation> UnobservableOn(
+    const Surface& surface, const Eigen::Vector3d& center) {
   std::vector<DirectionInformation> unobservable;
   const double floor = 1e-9 * static_cast<double>(surface.points.cols());
   for (const auto& direction :
@@ -54,7 +55,7 @@ TEST(SplitInformation, APlaneHoldsNoPositionInItAndNoTurnAboutItsNormal) {
   Surface plane = RandomPlane(100, 10.0, 1);
   plane.points = (R * plane.points).colwise() + Eigen::Vector3d(3.0, 1.0, 2.0);
   plane.normals = R * plane.normals;
-  const auto unobservable = NotHeldBy(plane, {3.5, 1.0, 2.0});
+  const auto unobservable = UnobservableOn(plane, {3.5, 1.0, 2.0});
   ASSERT_EQ(unobservable.size(), 3u);
   const Eigen::Vector3d normal = R.col(2);
   for (const int i : {0, 1}) {
@@ -71,9 +72,9 @@ TEST(SplitInformation, ACylinderTurnsAndSlidesAlongItsOwnAxis) {
   Surface cylinder = RandomCylinder(200, 0.5, 4.0, 2);
   cylinder.points = (R * cylinder.points).colwise() + foot;
   cylinder.normals = R * cylinder.normals;
-  // About a point that is not on it.
+  // The center is not on the axis.
   const auto unobservable =
-      NotHeldBy(cylinder, foot + Eigen::Vector3d(1.0, 2.0, 3));
+      UnobservableOn(cylinder, foot + Eigen::Vector3d(1.0, 2.0, 3));
   ASSERT_EQ(unobservable.size(), 2u);
   EXPECT_EQ(unobservable[0].freedom, Freedom::kTranslation);
   EXPECT_NEAR(std::abs(unobservable[0].axis.dot(R.col(2))), 1.0, 1e-9);
@@ -86,7 +87,7 @@ TEST(SplitInformation, ASphereTurnsAboutItsMiddle) {
   const Eigen::Vector3d middle(2.0, -3.0, 4.0);
   Surface sphere = RandomSphere(200, 2.0, 3);
   sphere.points.colwise() += middle;
-  const auto unobservable = NotHeldBy(sphere, {2.5, -3.0, 3.0});
+  const auto unobservable = UnobservableOn(sphere, {2.5, -3.0, 3.0});
   ASSERT_EQ(unobservable.size(), 3u);
   for (const DirectionInformation& direction : unobservable) {
     EXPECT_EQ(direction.freedom, Freedom::kRotation);
@@ -94,7 +95,7 @@ TEST(SplitInformation, ASphereTurnsAboutItsMiddle) {
   }
 }
 
-// With the determinant as the oracle: it is the product of all six.
+// The determinant is the oracle: it is the product of all six eigenvalues.
 TEST(SplitInformation, IsABlockDecomposition) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
@@ -106,7 +107,7 @@ TEST(SplitInformation, IsABlockDecomposition) {
         SplitInformation(information, Eigen::Vector3d::Zero(), 0.0);
     for (const auto& direction : directions) product *= direction.information;
     EXPECT_NEAR(product / information.determinant(), 1.0, 1e-6) << seed;
-    // Of a rotation, what the covariance says of it.
+    // The information of a rotation is the inverse of its variance.
     const Matrix6 covariance = information.inverse();
     const Eigen::Vector3d w = directions[3].axis;
     EXPECT_NEAR(
@@ -122,8 +123,8 @@ TEST(UnobservableDirection, SaysWhichAndWhy) {
   direction.reason = UnobservableReason::kNoSurface;
   direction.axis = {0.94, 0.342, -1e-9};
   EXPECT_EQ(direction.Describe(),
-            "position along the axis (0.94, 0.34, 0.00): no surface stands "
-            "across it");
+            "position along the axis (0.94, 0.34, 0.00): no surface "
+            "constrains it");
   direction.reason = UnobservableReason::kUncertain;
   direction.standard_deviation = 0.5;
   EXPECT_THAT(direction.Describe(), HasSubstr("standard deviation 0.5 m"));

@@ -35,7 +35,7 @@ Eigen::Vector3d Log(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
-// (2) of the header.
+// Equation (2) of the header.
 Vector6 Error(const Rigid3& truth, const Rigid3& estimate) {
   Vector6 error;
   error << Log(truth.rotation * estimate.rotation.transpose()),
@@ -43,7 +43,7 @@ Vector6 Error(const Rigid3& truth, const Rigid3& estimate) {
   return error;
 }
 
-// (3) of the header.
+// Equation (3) of the header.
 Vector6 ErrorAtCenter(const Rigid3& truth,
                       const Rigid3& estimate,
                       const Eigen::Vector3d& center) {
@@ -53,7 +53,7 @@ Vector6 ErrorAtCenter(const Rigid3& truth,
   return error;
 }
 
-// e^T C^-1 e, in units in which C has ones on its diagonal.
+// e^T C^-1 e, in units such that the diagonal of C is one.
 double NormalizedSquare(const Eigen::VectorXd& error,
                         const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd units =
@@ -64,9 +64,9 @@ double NormalizedSquare(const Eigen::VectorXd& error,
   return e.dot(scaled.ldlt().solve(e));
 }
 
-// Of numbers that should be chi-square distributed with so many degrees of
-// freedom: their mean, and how many are above the 95 % quantile. Bands of 3.3
-// standard deviations, which one in a thousand misses.
+// Statistics of numbers that should be chi-square distributed with this many
+// degrees of freedom: their mean, and how many exceed the 95 % quantile. Bands
+// are 3.3 standard deviations wide; one in a thousand runs would miss them.
 void ExpectChiSquare(const std::vector<double>& numbers,
                      int degrees,
                      double quantile95) {
@@ -85,7 +85,8 @@ void ExpectChiSquare(const std::vector<double>& numbers,
 constexpr double kQuantile4 = 9.488;  // 95 % of chi-square.
 constexpr double kQuantile6 = 12.592;
 
-// Longer than high, on a slope, so that yaw and tilt are correlated.
+// A cloud that is longer than high and on a slope, so that yaw and tilt are
+// correlated.
 Points SlopedPoints(Eigen::Index n, std::uint64_t seed) {
   Random random(seed);
   Points points = RandomPointsInBox(n, {20.0, 8.0, 3.0}, &random);
@@ -110,8 +111,8 @@ class PoseCovarianceTest : public ::testing::Test {
   PoseCovarianceOptions options_;
 };
 
-// 500 problems with the source about `middle`; errors at the center, and of
-// the translation as it is if `translations`.
+// 500 problems with the source about `middle`. Errors are those at the center,
+// or of the translation itself if `translations`.
 void ExpectConsistent(const Eigen::Vector3d& middle, bool translations) {
   PoseCovarianceOptions options;
   options.sigma = kSigma;
@@ -151,7 +152,8 @@ TEST(PoseCovarianceMonteCarlo, AlsoFarFromTheOrigin) {
   ExpectConsistent({1e7, -2e7, 1e7}, false);
 }
 
-// The estimator sees no tilt; what it does to the yaw is in the covariance.
+// The estimator does not estimate the tilt. Its effect on the yaw is in the
+// covariance.
 TEST(PoseCovarianceMonteCarlo, AssumedTiltIsAccountedFor) {
   for (const double tilt_std : {1e-9, 0.01}) {
     PoseCovarianceOptions options;
@@ -190,7 +192,7 @@ TEST(PoseCovarianceMonteCarlo, AssumedTiltIsAccountedFor) {
   }
 }
 
-// Matches that hold the tilt about as well as the INS does.
+// Matches that constrain the tilt about as well as the INS does.
 TEST(PoseCovarianceMonteCarlo, FusedWithAnIns) {
   constexpr double kAngleStd = 0.02;
   PoseCovarianceOptions options;
@@ -235,7 +237,7 @@ TEST_F(PoseCovarianceTest, IsTwiceTheInverseCurvatureOfTheClosedForm) {
   EXPECT_LT((*result.covariance_at_center - expected).norm(),
             1e-9 * expected.norm());
   EXPECT_TRUE(result.unobservable.empty()) << result.unobservable[0].Describe();
-  EXPECT_EQ(result.message, "held");
+  EXPECT_EQ(result.message, "computed");
 }
 
 TEST_F(PoseCovarianceTest, OfManyMatchesIsTheSameWithoutCeres) {
@@ -289,7 +291,7 @@ TEST_F(PoseCovarianceTest, MovesWithTheTargetFrame) {
   }
 }
 
-// d of the new pose: the source's new origin is where the arm to it turns.
+// The d of the new pose is the motion of the source's new origin.
 TEST_F(PoseCovarianceTest, MovesWithTheSourceFrame) {
   const Rigid3 moved_from_source{RandomRotation(8), {50.0, 6.0, -7.0}};
   const PoseCovariance before = Compute(source_, target_, pose_);
@@ -350,11 +352,11 @@ TEST_F(PoseCovarianceTest, SigmaCanBeTheResiduals) {
   const double ratio = measured.sigma / kSigma;
   EXPECT_LT((*measured.covariance - ratio * ratio * *assumed.covariance).norm(),
             1e-9 * measured.covariance->norm());
-  // Residuals of nothing are not taken for certainty.
+  // Zero residuals do not mean certainty.
   EXPECT_EQ(Compute(source_, exact_, pose_).sigma, kSigma / 3.0);
 }
 
-// The rotations of `result` that nothing holds.
+// The rotations of `result` that nothing constrains.
 std::vector<UnobservableDirection> Unobservable(const PoseCovariance& result,
                                                 Freedom freedom,
                                                 UnobservableReason reason) {
@@ -371,7 +373,7 @@ void ExpectNoCovariance(const PoseCovariance& result) {
   EXPECT_FALSE(result.covariance.has_value());
   EXPECT_FALSE(result.covariance_at_center.has_value());
   EXPECT_FALSE(result.unobservable.empty());
-  EXPECT_THAT(result.message, HasSubstr("matches hold"));
+  EXPECT_THAT(result.message, HasSubstr("matches constrain"));
   EXPECT_THAT(result.message, HasSubstr(result.unobservable[0].Describe()));
 }
 
@@ -435,7 +437,7 @@ TEST_F(PoseCovarianceTest, TwoMatchesHoldAYawButNoTurnAboutTheirLine) {
   EXPECT_TRUE(yaw.covariance.has_value()) << yaw.message;
 }
 
-// A line far out, where its points are rounded off it.
+// A line far from the origin, where rounding moves its points off the line.
 TEST_F(PoseCovarianceTest, MatchesOnALineHoldNoTurnAboutIt) {
   for (const double far : {0.0, 1e5, 1e7}) {
     const Eigen::Vector3d line = RandomDirection(9);
@@ -457,7 +459,7 @@ TEST_F(PoseCovarianceTest, MatchesOnALineHoldNoTurnAboutIt) {
   }
 }
 
-// Noise on both sides alone would say 1 / sqrt(2 n) rad: a fake certainty.
+// Noise alone would give 1 / sqrt(2 n) rad, which is false certainty.
 TEST_F(PoseCovarianceTest, APoleHoldsNoTurnAboutItHoweverManyItsMatches) {
   Points source = Points::Zero(3, 2000);
   source.row(2).setLinSpaced(0.0, 6.0);
@@ -466,7 +468,7 @@ TEST_F(PoseCovarianceTest, APoleHoldsNoTurnAboutItHoweverManyItsMatches) {
   source += RandomPoints(2000, kSigma / std::sqrt(2.0), 5);
   const PoseCovariance rigid = Compute(source, target, pose_);
   ExpectNoCovariance(rigid);
-  EXPECT_EQ(rigid.rank, 6);  // As far as numbers go.
+  EXPECT_EQ(rigid.rank, 6);  // Numerically.
   ASSERT_EQ(rigid.unobservable.size(), 1u);
   EXPECT_EQ(rigid.unobservable[0].reason, UnobservableReason::kWithinNoise);
   EXPECT_GT(std::abs(rigid.unobservable[0].axis.dot(pose_.rotation.col(2))),
@@ -478,7 +480,7 @@ TEST_F(PoseCovarianceTest, APoleHoldsNoTurnAboutItHoweverManyItsMatches) {
   ExpectNoCovariance(yaw);
   EXPECT_EQ(yaw.unobservable[0].reason, UnobservableReason::kWithinNoise);
 
-  // With an INS the tilt is held, and the yaw as little as before.
+  // With an INS the tilt is constrained, but the yaw still is not.
   options_.model = PoseModel::kRigid;
   options_.prior.emplace();
   options_.prior->up_in_target = pose_.rotation.col(2);

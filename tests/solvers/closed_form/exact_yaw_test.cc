@@ -55,9 +55,10 @@ Eigen::Vector3d PlanarVector(double length, double angle, double z) {
   return {length * std::cos(angle), length * std::sin(angle), z};
 }
 
-// Lengths log-uniform between two [m]. A third of the measurements turn by one
-// yaw, the others by any; a sixth do not agree in length; some bounds are above
-// the lengths (all of the circle is their arc); some weights are zero.
+// Lengths are log-uniform between two values [m]. A third of the measurements
+// are rotated by one yaw, the others by random ones. A sixth have inconsistent
+// lengths. Some bounds exceed the lengths, so their arc is the full circle.
+// Some weights are zero.
 Problem RandomProblem(Eigen::Index n,
                       double shortest,
                       double longest,
@@ -102,7 +103,7 @@ Problem Selected(const Problem& problem,
   return selected;
 }
 
-// The plain fit of some of the measurements.
+// The least-squares fit of a subset of the measurements.
 std::optional<YawEstimate> Fit(const Problem& problem,
                                const Eigen::Array<bool, -1, 1>& is_in_set) {
   const Weights weights = is_in_set.select(
@@ -110,7 +111,7 @@ std::optional<YawEstimate> Fit(const Problem& problem,
   return EstimateYaw(problem.source, problem.target, weights);
 }
 
-// The least over the fits of all subsets: no arcs, no sweep.
+// The minimum over the fits of all subsets, without arcs or a sweep.
 double LeastOverAllSubsets(const Problem& problem) {
   const Eigen::Index n = problem.source.cols();
   double least = kInfinity;
@@ -122,7 +123,7 @@ double LeastOverAllSubsets(const Problem& problem) {
   return least;
 }
 
-// The least over the fits of the sets that hold between two ends of arcs.
+// The minimum over the fits of the sets between consecutive ends of arcs.
 double LeastOverAllIntervals(const Problem& problem) {
   const Eigen::Index n = problem.source.cols();
   std::vector<double> ends = {-M_PI, M_PI};
@@ -136,7 +137,7 @@ double LeastOverAllIntervals(const Problem& problem) {
     const double c = problem.bounds[k];
     phi[k] = std::remainder(std::atan2(t.y(), t.x()) - std::atan2(s.y(), s.x()),
                             2.0 * M_PI);
-    // Equation (2), as a sine so that narrow arcs keep their digits.
+    // Equation (2) as a sine, so that narrow arcs keep their digits.
     const double sine2 = (c - a + b) * (c + a - b) / (4.0 * a * b);
     half_width[k] = sine2 < 0.0    ? -1.0
                     : sine2 >= 1.0 ? 4.0
@@ -159,7 +160,7 @@ double LeastOverAllIntervals(const Problem& problem) {
   return least;
 }
 
-// The least over a grid of 100,000 angles, and about its best one.
+// The minimum over a grid of 100,000 angles, refined around the best.
 double LeastOverGrid(const Problem& problem) {
   constexpr int kNumAngles = 100'000;
   constexpr double kStep = 2.0 * M_PI / kNumAngles;
@@ -302,7 +303,7 @@ TEST(ExactYaw, OneMeasurementGivesItsExactYaw) {
 }
 
 TEST(ExactYaw, ArcsAcrossPiAreWhole) {
-  // A third each about pi - 0.05, pi and pi + 0.05, where arcs are 0.1 wide.
+  // A third each about pi - 0.05, pi and pi + 0.05; arcs are 0.1 wide.
   for (const double center : {M_PI, -M_PI, 0.0, 0.5 * M_PI}) {
     Problem problem{Points(3, 9),
                     Points(3, 9),
@@ -322,7 +323,7 @@ TEST(ExactYaw, ArcsAcrossPiAreWhole) {
 }
 
 TEST(ExactYaw, BoundsAboveTheLengthsAreNeverAnOutlier) {
-  // No truncation anywhere, so this is the plain fit.
+  // Nothing is truncated, so this is the least-squares fit.
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     Problem problem = RandomProblem(20, 0.3, 3.0, seed);
     problem.bounds.setConstant(100.0);
@@ -355,7 +356,7 @@ TEST(ExactYaw, LengthsThatDisagreeChangeTheCostAlone) {
 
 TEST(ExactYaw, OfEqualMinimaTheFirstFromMinusPi) {
   for (const Eigen::Index num_copies : {1, 2, 3, 10}) {
-    // As many at each of four angles, in any order.
+    // Equal numbers at four angles, in any order.
     const double angles[] = {1.0, -2.0, 2.5, -0.5};
     const Eigen::Index n = 4 * num_copies;
     Problem problem{Points(3, n),
@@ -507,8 +508,8 @@ TEST(ExactYaw, UnitOfLengthDoesNotMatter) {
 }
 
 TEST(ExactYaw, AMillimetreBesideAThousandKilometresIsAsGood) {
-  // What a long one leaves in the running sums when it leaves must not drown
-  // the short ones that stay.
+  // A long measurement that leaves the set must not leave rounding errors that
+  // drown the short ones.
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Problem problem = RandomProblem(60, 1e-3, 1e6, seed);
     const auto exact = problem.Solve();
@@ -536,7 +537,7 @@ TEST(ExactYaw, OneFromTheEndOfTheWorldDoesNotDrownTheOthers) {
 }
 
 TEST(ExactYaw, ArcsThatJustCloseAreAllOfTheCircle) {
-  // a + b = c up to rounding: no more than the last digit is beyond the bound.
+  // a + b = c up to rounding: at most the last digit is beyond the bound.
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Problem problem = RandomProblem(8, 0.05, 0.5, seed);
     Random random(seed);
@@ -587,7 +588,7 @@ TEST(ExactYaw, DoesNotAnswerToNaN) {
 }
 
 TEST(TruncatedYawCost, ByHand) {
-  // Turned a quarter: off by 0, by 1 of 2 and by 5 of 2.
+  // Rotated by 90 deg: residuals are 0, 1 with bound 2, and 5 with bound 2.
   Points source(3, 3);
   source << 1.0, 2.0, 3.0,  //
       0.0, 0.0, 0.0,        //

@@ -80,8 +80,8 @@ TEST(RelativeTilt, OfALevelTargetIsTheSources) {
 }
 
 TEST(RelativeTilt, OfOneSlopeDependsOnTheHeading) {
-  // Up and down one slope of 0.1 there is a turn alone between the two. Nose
-  // up and nose down in one heading, twice the slope.
+  // Up and down one slope of 0.1, the two attitudes differ only by a rotation.
+  // Nose up and nose down with one heading, they differ by twice the slope.
   const Attitude uphill = {0.0, -0.1, 0.0};
   EXPECT_LE(
       (RelativeTilt(uphill, uphill) - Matrix3d(Matrix3d::Identity())).norm(),
@@ -115,7 +115,7 @@ TEST(RotationBetween, OfEqualAxesIsIdentityToTheLastBit) {
 }
 
 TEST(RotationBetween, OppositeAxesAreHalfATurnApart) {
-  // Upside down: about x.
+  // Upside down: the rotation is about x.
   EXPECT_LE((RotationBetween(-Vector3d::UnitZ(), Vector3d::UnitZ()) -
              Matrix3d(Vector3d(1.0, -1.0, -1.0).asDiagonal()))
                 .norm(),
@@ -131,7 +131,7 @@ TEST(RotationBetween, OppositeAxesAreHalfATurnApart) {
   }
 }
 
-// Matches of noise `sigma`, tilted by LevelFromBody(0.1, -0.05).
+// Matches with noise `sigma`, tilted by LevelFromBody(0.1, -0.05).
 class RefineWithInsTest : public ::testing::Test {
  protected:
   RefineWithInsTest() {

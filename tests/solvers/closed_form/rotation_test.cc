@@ -55,8 +55,8 @@ using Solver = std::optional<RotationEstimate> (*)(const PointsRef&,
                                                    const PointsRef&,
                                                    const WeightsRef&);
 
-// Every test runs for both closed forms, on fifty noisy pairs: none depends on
-// a clean fit.
+// Every test runs for both closed forms on fifty noisy pairs. None requires a
+// clean fit.
 class RotationTest : public ::testing::TestWithParam<Solver> {
  protected:
   static constexpr Eigen::Index kNumPairs = 50;
@@ -173,7 +173,7 @@ TEST_P(RotationTest, IsARotationEvenWhereAReflectionFitsBetter) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const Eigen::Matrix3d reflection =
         RandomRotation(seed) * Eigen::Vector3d(1.0, 1.0, -1.0).asDiagonal();
-    // Flat, so that the reflected direction is the one of least spread.
+    // Flat, so that the reflected direction is that of least variance.
     const Points source = Eigen::Vector3d(1.0, 1.0, 0.3).asDiagonal() * source_;
     const auto estimate = Estimate(source, reflection * source, weights_);
     ASSERT_TRUE(estimate.has_value()) << "seed " << seed;
@@ -195,7 +195,7 @@ TEST_P(RotationTest, DirectionsInAPlaneAreEnough) {
     ASSERT_TRUE(estimate.has_value()) << "seed " << seed;
     EXPECT_LT(AngleBetween(estimate->target_from_source, R), kTolerance);
 
-    // Two directions are.
+    // Two directions determine a rotation.
     const auto of_two =
         Estimate(flat.leftCols(2), R * flat.leftCols(2), weights_.head(2));
     ASSERT_TRUE(of_two.has_value()) << "seed " << seed;
@@ -269,7 +269,7 @@ TEST_P(RotationTest, DoesNotAnswerWhenTwoRotationsTieForAReflection) {
     const Points source = RandomRotation(seed) * axes;
     const Points target = -RandomRotation(seed + 1000) * source;
     EXPECT_FALSE(Estimate(source, target, Weights::Ones(6))) << seed;
-    // Without the tie, there is an answer.
+    // Without the tie, there is a solution.
     Weights uneven = Weights::Ones(6);
     uneven[0] = 0.9;
     EXPECT_TRUE(Estimate(source, target, uneven)) << seed;
@@ -416,7 +416,7 @@ TEST_F(RigidTest, ZeroWeightIsTheSameAsLeavingThePointOut) {
             1e-11);
 }
 
-// At 1e7 m a double's digits end at 2e-9 m, and so may the answer's.
+// At 1e7 m a double has a resolution of 2e-9 m, which limits the estimate, too.
 TEST_F(RigidTest, KeepsItsDigitsFarFromTheOrigin) {
   const Eigen::Vector3d far_source(1e7, -2e7, 1e7);
   const Eigen::Vector3d far_target(-1e7, 1e7, 3e7);

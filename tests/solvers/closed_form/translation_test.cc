@@ -21,7 +21,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// Equation (1) of the header, written down once more.
+// An independent implementation of (1) of the header.
 double TruncatedCost(double t, const Vector& values, const Vector& bounds) {
   return ((t - values.array()) / bounds.array()).square().min(1.0).sum();
 }
@@ -47,8 +47,8 @@ AxisProblem RandomAxis(Eigen::Index n, bool equal_bounds, std::uint64_t seed) {
   return axis;
 }
 
-// The least (1) over the weighted means of all non-empty subsets: the minimum
-// is the mean of its own consensus set, so it is among them.
+// The least (1) over the weighted means of all non-empty subsets. The minimum
+// is the mean of its own consensus set, so it is one of them.
 double LeastCostOverAllSubsets(const AxisProblem& axis) {
   const auto n = static_cast<unsigned>(axis.values.size());
   double least = std::numeric_limits<double>::infinity();
@@ -147,8 +147,8 @@ TEST(EstimateConsensus, TwoFarValuesGiveOneOfThem) {
 }
 
 TEST(EstimateConsensus, AgreementAtTheVeryBoundGainsNothing) {
-  // Half way between, both are exactly at their bound and cost 1 each; at
-  // either of them only the other does.
+  // Halfway between, both are exactly at their bound and cost 1 each. At either
+  // of them, only the other one costs 1.
   const auto estimate =
       EstimateConsensus(Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(0.5, 0.5));
   EXPECT_EQ(estimate->cost, 1.0);
@@ -162,8 +162,8 @@ TEST(EstimateConsensus, MoreValuesBeatTighterOnes) {
 }
 
 TEST(EstimateConsensus, CostDecidesAndNotTheCount) {
-  // Three at the rim of a wide spread cost 1 + 0 + 1 and two outliers; two
-  // equal ones cost nothing and three outliers. 2 + 2 > 0 + 3.
+  // The three of a wide set cost 1 + 0 + 1, plus two outliers. The two equal
+  // ones cost nothing, plus three outliers. 2 + 2 > 0 + 3.
   Vector values(5);
   values << 0.0, 1.0, 2.0, 50.0, 50.0;
   const auto estimate = EstimateConsensus(values, Filled(5, 1.0));
@@ -187,7 +187,7 @@ TEST(EstimateConsensus, FarOutliersLeaveNoResidue) {
 }
 
 TEST(EstimateConsensus, GroupsFarApartDoNotMixTheirCosts) {
-  // Three times the same group, but for the digits that it loses far away.
+  // Three copies of one group, equal up to the digits lost far away.
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Vector group = 0.1 * RandomAxis(6, true, seed).values;
     const Vector bounds = Filled(6, 0.3);
@@ -262,7 +262,8 @@ TEST(EstimateConsensus, EqualValuesAreOneConsensus) {
 }
 
 TEST(EstimateConsensus, APreciseValueDoesNotDrownTheOthers) {
-  // The first weighs 1e6 times the others, which are nevertheless more.
+  // The first weighs 1e6 times as much as each other one, but the others
+  // outnumber it.
   Vector values(5);
   values << 0.0, 0.5, 0.6, 0.7, 0.8;
   Vector bounds = Filled(5, 1.0);

@@ -23,12 +23,12 @@ Eigen::Matrix3d RotationZ(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-// Fifty noisy pairs of random weight: no test below depends on a clean fit.
+// Fifty noisy pairs of random weight. No test requires a clean fit.
 class YawTest : public ::testing::Test {
  protected:
   static constexpr int kNumPairs = 50;
   static constexpr double kYaw = 0.7;    // [rad]
-  static constexpr double kNoise = 0.3;  // [m], a poor fit on purpose.
+  static constexpr double kNoise = 0.3;  // [m], a deliberately poor fit.
 
   Points RandomPoints(double sigma) {
     std::normal_distribution<double> normal(0.0, sigma);
@@ -94,7 +94,7 @@ TEST_F(YawTest, DoesNotAnswerWhenThePairsHoldNoYaw) {
   EXPECT_FALSE(EstimateYaw(vertical, target_, weights_));
 }
 
-// Equation (1), written once more and differently, for Ceres to differentiate.
+// An independent implementation of (1) for Ceres to differentiate.
 struct WeightedPairResidual {
   template <typename T>
   bool operator()(const T* direction, T* residual) const {
@@ -142,8 +142,9 @@ TEST_F(YawTest, AgreesWithCeresOnTheUnitCircle) {
   EXPECT_NEAR(
       closed_form->cost, 2.0 * summary.final_cost, 1e-9 * closed_form->cost);
 
-  // The curvature is Ceres' Gauss-Newton Hessian plus the residual's own part;
-  // at a poor fit only a finite difference of (1) sees both.
+  // The curvature is Ceres' Gauss-Newton Hessian plus the second derivative of
+  // the residuals. If the fit is poor, only a finite difference of (1) includes
+  // both.
   const auto cost_at = [&](double angle) {
     const Eigen::Matrix2Xd error =
         target_.topRows<2>() -

@@ -35,7 +35,7 @@ double CostAt(const Rigid3& motion,
       .dot(weights.transpose());
 }
 
-// Forty noisy points far from the origin: no test depends on a clean fit.
+// Forty noisy points far from the origin. No test requires a clean fit.
 class YawTranslationTest : public ::testing::Test {
  protected:
   static constexpr Eigen::Index kNumPoints = 40;
@@ -165,7 +165,7 @@ TEST_F(YawTranslationTest, HeightMovesTheHeightOnly) {
       1e-11);
 }
 
-// At 1e7 m a double's digits end at 2e-9 m, and so may the answer's.
+// At 1e7 m a double has a resolution of 2e-9 m, which limits the estimate, too.
 TEST_F(YawTranslationTest, KeepsItsDigitsFarFromTheOrigin) {
   const Eigen::Vector3d far_source(1e7, -2e7, 1e7);
   const Eigen::Vector3d far_target(-1e7, 1e7, 3e7);

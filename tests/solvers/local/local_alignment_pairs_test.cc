@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Real scans: local registration from 3 deg and 0.5 m off.
+// Local registration of real scans from 3 deg and 0.5 m off.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ Points ReadVoxels(const std::string& name) {
   return SampleVoxels(cloud->points, kVoxelSize, &error).value();
 }
 
-// set,source,target,tx,ty,tz,qx,qy,qz,qw,...; those whose set is KITTI's.
+// Reads lines set,source,target,tx,ty,tz,qx,qy,qz,qw,...; keeps those of KITTI.
 std::vector<Pair> ReadKittiPairs(const std::string& path) {
   std::ifstream file(path);
   std::string line;
@@ -76,7 +76,7 @@ class LocalAlignmentPairsTest : public ::testing::Test {
     if (!std::filesystem::exists(path_)) GTEST_SKIP() << "needs pairs.csv";
   }
 
-  // Every pair is to end within 0.3 m and 1 deg of its known pose.
+  // Every pair must end within 0.3 m and 1 deg of its known pose.
   template <typename Solve>
   void ExpectAllConverge(const Solve& solve) const {
     std::vector<double> times;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What ICP, G-ICP and VG-ICP have in common.
+// Tests that ICP, G-ICP and VG-ICP share.
 
 #include "solvers/local/local_alignment.h"
 
@@ -51,7 +51,7 @@ AlignmentSummary Solve(Method method,
   return SolveVgicp(source, target, initial, With(options));
 }
 
-// A cloud with its tree and normals.
+// A cloud, its tree and its normals.
 struct Prepared {
   explicit Prepared(const Points& points)
       : tree(points), normals(EstimateNearestNormals(tree, 20, 1)) {}
@@ -87,7 +87,7 @@ class LocalAlignmentTest : public ::testing::TestWithParam<Method> {
   const Points source_ = Inverse(truth_).Apply(RandomStreet(4000, 0.01, 1));
   LocalAlignmentOptions options_;
 
-  // Off by 3 deg about the middle of the street and by 0.5 m.
+  // The guess is off by 3 deg about the middle of the street and by 0.5 m.
   Rigid3 Start(std::uint64_t seed) const {
     Vector6 delta;
     delta << 3.0 * kDegree * RandomDirection(seed),
@@ -110,10 +110,11 @@ const char* NameOf(const ::testing::TestParamInfo<Method>& test) {
   return test.param == Method::kGicp ? "Gicp" : "Vgicp";
 }
 
-// Those whose q and p can be one point: a voxel's mean never is.
+// Methods whose q and p can coincide: a voxel's mean never coincides with a
+// point.
 class PointwiseAlignmentTest : public LocalAlignmentTest {};
 
-// Those that see surfaces: in ICP, points of a plane hold each other.
+// Methods that use surfaces. In ICP, points of a plane resist sliding.
 class SurfaceAlignmentTest : public LocalAlignmentTest {};
 
 INSTANTIATE_TEST_SUITE_P(Methods,
@@ -153,7 +154,7 @@ TEST_P(LocalAlignmentTest, ConvergesFromThreeDegreesAndHalfAMetre) {
   }
 }
 
-// By the definition of (1), with nothing of the solver's.
+// Implements the definition of (1) independently of the solver.
 TEST_P(LocalAlignmentTest, HessianIsThatOfFiniteDifferences) {
   for (const RobustKernelType type :
        {RobustKernelType::kNone, RobustKernelType::kCauchy}) {
@@ -163,16 +164,17 @@ TEST_P(LocalAlignmentTest, HessianIsThatOfFiniteDifferences) {
     const Rigid3& pose = *summary.target_from_source;
     const Prepared source(source_);
     const Prepared target(target_);
-    const auto held =
-        HoldTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
-    EXPECT_EQ(static_cast<Eigen::Index>(held.size()), summary.num_inliers);
-    EXPECT_NEAR(HeldCost(held, pose, options_.kernel),
+    const auto terms_at_pose =
+        FixTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
+    EXPECT_EQ(static_cast<Eigen::Index>(terms_at_pose.size()),
+              summary.num_inliers);
+    EXPECT_NEAR(FixedCost(terms_at_pose, pose, options_.kernel),
                 summary.cost,
                 1e-9 * summary.cost);
 
     Matrix6 hessian = Matrix6::Zero();
     constexpr double kStep = 1e-5;
-    for (const HeldTerm& one : held) {
+    for (const FixedTerm& one : terms_at_pose) {
       Eigen::Matrix<double, 3, 6> jacobian;
       for (int k = 0; k < 6; ++k) {
         const Vector6 delta = kStep * Vector6::Unit(k);
@@ -190,7 +192,7 @@ TEST_P(LocalAlignmentTest, HessianIsThatOfFiniteDifferences) {
   }
 }
 
-// Without residuals that of Gauss and Newton is the whole second derivative.
+// Without residuals, the Gauss-Newton Hessian is the full second derivative.
 TEST_P(PointwiseAlignmentTest, HessianIsTheSecondDifferenceOfThePerfectCost) {
   const Points target = truth_.Apply(source_);
   const AlignmentSummary summary = Solve(source_, target, truth_);
@@ -198,15 +200,15 @@ TEST_P(PointwiseAlignmentTest, HessianIsTheSecondDifferenceOfThePerfectCost) {
   const Rigid3& pose = *summary.target_from_source;
   const Prepared a(source_);
   const Prepared b(target);
-  const auto held =
-      HoldTerms(pose, MakeTerms(GetParam(), a, b, options_).get());
+  const auto terms_at_pose =
+      FixTerms(pose, MakeTerms(GetParam(), a, b, options_).get());
   constexpr double kStep = 1e-3;
   Matrix6 second;
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k < 6; ++k) {
       const auto cost = [&](double x, double y) {
-        return HeldCost(
-            held,
+        return FixedCost(
+            terms_at_pose,
             Perturbed(pose,
                       kStep * (x * Vector6::Unit(i) + y * Vector6::Unit(k))));
       };
@@ -234,17 +236,19 @@ TEST_P(LocalAlignmentTest, ConvergesWhereCeresDoes) {
     ASSERT_EQ(summary.termination, AlignmentTermination::kConverged)
         << summary.message;
     const Rigid3& pose = *summary.target_from_source;
-    const auto held =
-        HoldTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
-    const Rigid3 by_ceres = SolveHeldByCeres(held, pose, options_.kernel);
+    const auto terms_at_pose =
+        FixTerms(pose, MakeTerms(GetParam(), source, target, options_).get());
+    const Rigid3 by_ceres =
+        SolveFixedByCeres(terms_at_pose, pose, options_.kernel);
     EXPECT_LE((by_ceres.translation - pose.translation).norm(), 1e-6);
     EXPECT_LE(AngleBetween(by_ceres.rotation, pose.rotation), 1e-6);
 
-    // From elsewhere Ceres comes back: the agreement is not for want of a step.
+    // Ceres returns from another start, so the results do not agree merely
+    // because Ceres took no step.
     Vector6 delta;
     delta << 1e-3, -1e-3, 1e-3, 0.01, 0.01, -0.01;
-    const Rigid3 again =
-        SolveHeldByCeres(held, Perturbed(pose, delta), options_.kernel);
+    const Rigid3 again = SolveFixedByCeres(
+        terms_at_pose, Perturbed(pose, delta), options_.kernel);
     EXPECT_LE((again.translation - pose.translation).norm(), 1e-5);
     EXPECT_LE(AngleBetween(again.rotation, pose.rotation), 1e-5);
   }
@@ -304,7 +308,8 @@ TEST_P(LocalAlignmentTest, MovesWithItsClouds) {
   const AlignmentSummary here = Solve(source_, target_, Start(6));
   ASSERT_TRUE(here.IsUsable()) << here.message;
   const Rigid3 elsewhere_from_source{RandomRotation(1), {5.0, -8.0, 1.0}};
-  // Whole voxels, and no turn: VG-ICP's grid stays behind.
+  // A translation by whole voxels without a rotation: VG-ICP's grid does not
+  // move.
   const Rigid3 elsewhere_from_target{
       IsIcp() ? RandomRotation(2) : Eigen::Matrix3d::Identity(),
       {20.0, 30.0, -4.0}};
@@ -338,7 +343,7 @@ TEST_P(LocalAlignmentTest, LargeCoordinatesLoseNothing) {
 }
 
 TEST_P(LocalAlignmentTest, KernelTakesWeightFromWhatMovedByItself) {
-  // A quarter of the ground has risen by 0.3 m.
+  // A quarter of the ground is 0.3 m higher.
   Points moved = truth_.Apply(source_);
   for (auto point : moved.colwise()) {
     if (point.x() < -4.0 && point.z() < -1.9) point.z() += 0.3;
@@ -360,7 +365,7 @@ TEST_P(LocalAlignmentTest, KernelTakesWeightFromWhatMovedByItself) {
             0.8 * plain);
 }
 
-// No answer
+// Cases without a pose
 
 TEST_P(LocalAlignmentTest, FewerThanThreePointsAreInsufficient) {
   for (const Eigen::Index n : {0, 1, 2}) {
@@ -391,7 +396,7 @@ TEST_P(LocalAlignmentTest, PointsAtOnePlaceAreDegenerate) {
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate)
       << summary.message;
   EXPECT_FALSE(summary.IsUsable());
-  EXPECT_EQ(summary.not_held.cols(), 3);
+  EXPECT_EQ(summary.unobservable.cols(), 3);
 }
 
 TEST_P(LocalAlignmentTest, PointsOnALineAreDegenerateAboutIt) {
@@ -401,7 +406,8 @@ TEST_P(LocalAlignmentTest, PointsOnALineAreDegenerateAboutIt) {
       Solve(source, source.colwise() + 0.1 * line, {});
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate);
   EXPECT_FALSE(summary.IsUsable());
-  EXPECT_THAT(summary.message, HasSubstr("a turn about (0.33, 0.67, 0.67)"));
+  EXPECT_THAT(summary.message,
+              HasSubstr("a rotation about (0.33, 0.67, 0.67)"));
 }
 
 TEST_P(SurfaceAlignmentTest, CorridorIsDegenerateAlongIt) {
@@ -430,9 +436,9 @@ TEST_P(SurfaceAlignmentTest, CorridorIsDegenerateAlongIt) {
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate)
       << summary.conditioning;
   EXPECT_FALSE(summary.IsUsable());
-  EXPECT_THAT(summary.message, HasSubstr("a shift along ("));
-  ASSERT_EQ(summary.not_held.cols(), 1);
-  EXPECT_GT(std::abs(summary.not_held(4, 0)), 0.99);
+  EXPECT_THAT(summary.message, HasSubstr("a translation along ("));
+  ASSERT_EQ(summary.unobservable.cols(), 1);
+  EXPECT_GT(std::abs(summary.unobservable(4, 0)), 0.99);
 }
 
 TEST_P(SurfaceAlignmentTest, PlaneIsDegenerateInThreeDirections) {
@@ -443,10 +449,10 @@ TEST_P(SurfaceAlignmentTest, PlaneIsDegenerateInThreeDirections) {
   const AlignmentSummary summary = Solve(a, b, {});
   EXPECT_EQ(summary.termination, AlignmentTermination::kDegenerate)
       << summary.conditioning;
-  ASSERT_EQ(summary.not_held.cols(), 3);
-  // Turns about z, shifts in the plane.
-  EXPECT_LT(summary.not_held.topRows(2).norm(), 0.1);
-  EXPECT_LT(summary.not_held.row(5).norm(), 0.1);
+  ASSERT_EQ(summary.unobservable.cols(), 3);
+  // Rotations about z and translations in the plane.
+  EXPECT_LT(summary.unobservable.topRows(2).norm(), 0.1);
+  EXPECT_LT(summary.unobservable.row(5).norm(), 0.1);
 
   options_.min_conditioning = 0.0;
   EXPECT_TRUE(Solve(a, b, {}).IsUsable());
@@ -496,7 +502,7 @@ TEST_P(LocalAlignmentTest, OptionsOutOfRangeAreNamedAndNothingIsTried) {
   expect_error([](Options o) { o->num_threads = -1; }, "num_threads = -1");
 }
 
-// What a method puts into (1)
+// The terms of each method in (1)
 
 TEST(GicpTerms, AreThoseOfTheDefinition) {
   const Prepared source(RandomStreet(500, 0.02, 1));

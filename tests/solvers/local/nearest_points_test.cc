@@ -29,7 +29,7 @@ TEST(NearestPoints, AreThoseOfASearchAtEachPlace) {
                   is_near ? expected.index : -1);
         ++(is_near ? num_found : num_out_of_reach);
       }
-      // Steps from a metre down to a micrometre.
+      // Steps from one meter down to one micrometer.
       queries += RandomPoints(queries.cols(),
                               std::pow(0.5, static_cast<double>(step)),
                               1000 * seed + step);
