@@ -62,7 +62,7 @@ void TakeBack(const LevelFrames& frames, RefinementSummary* refinement) {
   TakeBack(frames, &alignment.target_from_source);
   TakeBack(frames, &alignment.hessian);
   const Eigen::Matrix3d back = frames.level_from_target.transpose();
-  for (auto direction : alignment.not_held.colwise()) {
+  for (auto direction : alignment.unobservable.colwise()) {
     direction.head<3>() = (back * direction.head<3>()).eval();
     direction.tail<3>() = (back * direction.tail<3>()).eval();
   }
