@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Puts the guide's pages where mkdocs reads them: assemble.py FOLDER
+"""Copies the pages of the guide to the folder that mkdocs reads: assemble.py FOLDER
 
-In the repository pages link to headers, pictures and README's sections, as
-anyone reads them there. On the site a header is its page of the reference, a
-picture is beside the pages, and `<!-- README: Fidelity -->` is README's section
-of that title, so that nothing has to be said twice.
+In the repository, pages link to headers, pictures and sections of README.md. On
+the site, a link to a header leads to its page of the reference, pictures are in
+a folder beside the pages, and `<!-- README: Results -->` is replaced by the
+section of README.md with that title, so that no text is kept twice.
 """
 import pathlib
 import re
@@ -18,7 +18,7 @@ ROOT = DOCS.parent
 
 
 def section(title):
-    """README's section, without its title; links as from docs/."""
+    """Returns a section of README.md without its title, with links as from docs/."""
     found = re.search(rf'^## {re.escape(title)}\n(.*?)(?=^## |\Z)', (ROOT / 'README.md').read_text(),
                       re.M | re.S)
     if not found:
@@ -28,7 +28,7 @@ def section(title):
 
 
 def reference_page(header):
-    """What Doxygen calls the page of a header."""
+    """Returns the name that Doxygen gives the page of a header."""
     return 'api/' + header.name.replace('_', '__').replace('.', '_8') + '.html'
 
 
@@ -39,7 +39,7 @@ def for_site(text, folder):
     def link(match):
         path = ROOT / match.group(1)
         if not path.exists():
-            sys.exit(f'assemble.py: no {match.group(1)}')
+            sys.exit(f'assemble.py: {match.group(1)} does not exist')
         if path.suffix == '.h':
             return f']({reference_page(path)})'
         if path.suffix == '.png':

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Builds the site, the guide and the reference of every public header, into one
-# folder that can be read from disk or served by anything.
-#   docs/build.sh [OUTPUT]     build/docs by default; OUTPUT/index.html
-# A warning of mkdocs or Doxygen fails it, and so does a link that leads nowhere
-# or anything that a browser would fetch from another host. Exits with 2 if a
-# tool is missing: third_party/install.sh --docs installs them.
+# Builds the site: the guide and the reference of every public header. It can be
+# read from disk or from any web server.
+#   docs/build.sh [OUTPUT]     writes OUTPUT/index.html; OUTPUT is build/docs by default
+# Fails if mkdocs or Doxygen warns, if a link is broken, or if a browser would
+# fetch anything from another host. Exits with 2 if a tool is missing;
+# third_party/install.sh --docs installs them.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 output=${1:-$root/build/docs}
@@ -19,14 +19,14 @@ cd "$root"
 mathjax=/usr/share/javascript/mathjax
 for tool in doxygen mkdocs "$mathjax/MathJax.js" /usr/share/mkdocs/themes/material; do
   if [[ ! -e $tool ]] && ! command -v "$tool" >/dev/null; then
-    echo "build.sh: no $tool; third_party/install.sh --docs installs it" >&2
+    echo "build.sh: $tool is missing; third_party/install.sh --docs installs it" >&2
     exit 2
   fi
 done
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# The reference. Fields may go without a comment, nothing else.
+# The reference. Everything but fields and macros needs a comment.
 {
   cat docs/doxygen/Doxyfile
   printf 'PROJECT_NUMBER = %s\n' "$(sed -nE 's/^project\(quatro VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)"
@@ -36,12 +36,12 @@ trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/pages"
 doxygen "$scratch/Doxyfile"
 if grep -vE '\((variable|macro definition)\) of .* is not documented\.$' "$scratch/warnings" >&2; then
-  echo "build.sh: Doxygen warns" >&2
+  echo "build.sh: Doxygen warns; see above" >&2
   exit 1
 fi
 rm -f "$scratch/pages/api/doxygen.svg"
 
-# The guide, beside it: so that mkdocs checks the links between them.
+# The guide goes beside the reference so that mkdocs checks the links between them.
 /usr/bin/python3 docs/assemble.py "$scratch/pages"
 mkdir -p "$scratch/pages/mathjax"
 cp -rL --parents "$mathjax"/{MathJax.js,config/TeX-AMS_CHTML-full.js,jax/output/CommonHTML/fonts/TeX} \

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Fails if a page of the site would fetch anything from another host, or links
-to a file or a place in a page that is not there: check_site.py FOLDER
+"""Fails if a page of the site would fetch anything from another host, or links to
+a file or an anchor that does not exist: check_site.py FOLDER
 """
 import html.parser
 import pathlib
@@ -10,7 +10,7 @@ import re
 import sys
 import urllib.parse
 
-# What a browser fetches by itself; a link to click may lead anywhere.
+# What a browser fetches by itself. Links to click may lead to other hosts.
 FETCHED = {'script': 'src', 'img': 'src', 'iframe': 'src', 'source': 'src', 'embed': 'src',
            'object': 'data', 'link': 'href'}
 NOT_FETCHED = {'canonical', 'prev', 'next'}
@@ -54,17 +54,17 @@ def main():
                 target /= 'index.html'
             name = urllib.parse.unquote(parts.fragment)
             if not target.exists():
-                errors.append(f'{where} links to {url}, which is not there')
+                errors.append(f'{where} links to {url}, which does not exist')
             elif (name and target in pages and name not in pages[target].names
-                  and name != 'nested-classes'):  # Of private ones Doxygen 1.9.4 links to no list.
-                errors.append(f'{where} links to {url}, which has no such place')
+                  and name != 'nested-classes'):  # Doxygen 1.9.4 does not list private ones.
+                errors.append(f'{where} links to {url}, which has no such anchor')
     for path in folder.rglob('*.css'):
         for url in re.findall(r'(?:url\(|@import\s)\s*["\']?([^"\')\s]+)', path.read_text(encoding='utf-8')):
             if is_elsewhere(url):
                 errors.append(f'{path.relative_to(folder)} fetches {url}')
     print('\n'.join(sorted(set(errors))), file=sys.stderr, end='\n' if errors else '')
     if not pages:
-        sys.exit('check_site.py: no pages')
+        sys.exit(f'check_site.py: {folder} contains no pages')
     sys.exit(1 if errors else 0)
 
 

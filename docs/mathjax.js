@@ -1,4 +1,4 @@
-// Equations are where pymdownx.arithmatex marked them, and nowhere else.
+// Only elements marked by pymdownx.arithmatex contain equations.
 window.MathJax = {
   tex2jax: {
     inlineMath: [['\\(', '\\)']],

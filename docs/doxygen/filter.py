@@ -1,23 +1,23 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Lets Doxygen read plain comments: prints a header with // as /// or ///<.
+"""Prints a header with its // comments as /// or ///<, so that Doxygen reads them.
 
-A comment counts where it opens the file, stands right above a declaration, or
-ends its line. It holds for all functions that are declared one right below the
-other. Comments in bodies stay as they are, and so does every line number.
+A comment is converted if it opens the file, is right above a declaration, or
+ends the line of one. It applies to all functions declared without a blank line
+between them. Comments in function bodies and line numbers do not change.
 """
 import re
 import sys
 
-# Braces behind these hold declarations, others hold statements.
+# Braces after these contain declarations, other braces contain statements.
 SCOPE = re.compile(r'\b(namespace|struct|class|enum|union)\b[^()=]*$|\bextern "C"\s*$')
 COMMENT = re.compile(r'^(\s*)//(?!/)(.*)$')
 TRAILING = re.compile(r'^(\s*\S.*?[;,]|\s*k\w+)\s+//(?!/) ?(.*)$')
 
 
 def escape(text):
-    """Text for Doxygen; three spaces more than the rest are an equation."""
+    """Escapes text for Doxygen; text indented by three more spaces is an equation."""
     if text.startswith('   '):
         return '     ' + text
     parts = text.split('`')
@@ -25,58 +25,58 @@ def escape(text):
     return '`'.join(parts)
 
 
-# What several types have by contract, said once.
+# Comments of members that several types have by contract.
 CONTRACTS = {
     # Subproblem, robust/gnc/gnc.h.
-    'Estimate': 'What is estimated.',
-    'NumMeasurements': 'How many there are to be weighted.',
+    'Estimate': 'The type of the estimate.',
+    'NumMeasurements': 'The number of measurements that get a weight.',
     'Identity': 'The estimate before any data.',
     'Solve': 'Weighted least squares; nullopt if the weights leave it undetermined.',
-    'SquaredResiduals': 'Squared residuals over the squared noise bound: an inlier has no more than 1.',
-    # Surrogate, robust/gnc/surrogate.h, where r2 is such a residual.
-    'InitialMu': 'The mu to begin with, from the largest r2.',
+    'SquaredResiduals': 'Squared residuals over the squared noise bound: at most 1 for an inlier.',
+    # Surrogate, robust/gnc/surrogate.h; r2 is such a squared residual.
+    'InitialMu': 'The initial mu, from the largest r2.',
     'NextMu': 'The mu of the next iteration.',
-    'IsExact': 'Whether the surrogate is the loss itself.',
-    'WeightSlope': 'The derivative of the weight by r2.',
+    'IsExact': 'Whether the surrogate equals the loss.',
+    'WeightSlope': 'The derivative of the weight with respect to r2.',
     'Weight': 'The weight at r2: the derivative of the surrogate.',
-    'OutlierProcess': 'What a weight w costs: the surrogate is the least of w r2 plus this.',
+    'OutlierProcess': 'The penalty of a weight w: the surrogate is the minimum over w of w r2 plus this.',
     'Loss': 'The surrogate at r2.',
-    # Rows of a file, features/io/ply_rows.h.
-    'MaxNumRows': 'An upper bound of the rows that are left.',
-    'BeginRow': 'Goes to the next row.',
-    'TakeLength': 'Takes the length of a list.',
-    'Take': 'Takes a number.',
-    'Skip': 'Passes over so many numbers.',
+    # Readers of rows, features/io/ply_rows.h.
+    'MaxNumRows': 'An upper bound on the number of remaining rows.',
+    'BeginRow': 'Moves to the next row.',
+    'TakeLength': 'Reads the length of a list.',
+    'Take': 'Reads a number.',
+    'Skip': 'Skips this many numbers.',
     'EndRow': 'Whether the row ends here.',
     # Allocators.
-    'value_type': 'As std::allocator_traits asks for it.',
-    'allocate': 'As std::allocator_traits asks for it.',
-    'deallocate': 'As std::allocator_traits asks for it.',
-    'construct': 'As std::allocator_traits asks for it.',
-    'operator==': 'Whether two are alike.',
-    # Cost functions and manifolds as Ceres wants them.
-    'CostFunction': 'With derivatives by Ceres.',
-    'Manifold': 'On which the rotation moves.',
-    'Rotate': 'The point turned by r.',
-    'Perturb': 'r turned on by delta.',
-    'Evaluate': 'As Ceres asks for it.',
+    'value_type': 'Required by std::allocator_traits.',
+    'allocate': 'Required by std::allocator_traits.',
+    'deallocate': 'Required by std::allocator_traits.',
+    'construct': 'Required by std::allocator_traits.',
+    'operator==': 'Whether two allocators are equal.',
+    # Cost functions and manifolds in the form that Ceres requires.
+    'CostFunction': 'The cost function, differentiated by Ceres.',
+    'Manifold': 'The manifold of the rotation.',
+    'Rotate': 'The point rotated by r.',
+    'Perturb': 'r rotated further by delta.',
+    'Evaluate': 'Required by Ceres.',
     'operator()': 'The residual at rotation r and translation t.',
-    'Plus': 'x moved on by delta.',
+    'Plus': 'x moved by delta.',
     'Minus': 'The delta from x to y.',
     # Summaries.
-    'IsUsable': 'Whether there is an answer; not whether it is right.',
+    'IsUsable': 'Whether there is a result; this does not say whether it is correct.',
 }
 
 
 def contract_of(line):
-    """The comment of a member that is known by its name, or nothing."""
+    """Returns the comment of a member whose name is in CONTRACTS, or nothing."""
     name = re.match(r'\s*(?:using (\w+) =|(?!return|typedef)[\w:<>,&\*\[\] ]*?\b(operator(?:\(\)|==)|\w+)\()', line)
     text = CONTRACTS.get((name.group(1) or name.group(2)) if name else '')
     return f'/** {text} */ ' if text else ''
 
 
 class Scopes:
-    """Where in the braces and brackets a line begins."""
+    """Tracks the braces and parentheses that are open at the start of a line."""
 
     def __init__(self):
         self.declares = [True]
@@ -107,7 +107,7 @@ class Scopes:
 
 
 def code_of(line):
-    """The line without strings, comments and preprocessor."""
+    """Returns the line without strings, comments and preprocessor directives."""
     if line.lstrip().startswith('#'):
         return ''
     line = re.sub(r'"(\\.|[^"\\])*"|\'(\\.|[^\'\\])\'', '""', line)
@@ -115,7 +115,7 @@ def code_of(line):
 
 
 def is_attached(lines, i):
-    """Whether the comment at line i stands right above something."""
+    """Returns whether the comment at line i is right above a declaration."""
     while i < len(lines) and COMMENT.match(lines[i]):
         i += 1
     return i < len(lines) and lines[i].strip() not in ('', '}', '};')
@@ -124,9 +124,9 @@ def is_attached(lines, i):
 def convert(lines):
     scopes = Scopes()
     in_file_comment = True
-    above = []           # The comment of the declarations at hand.
-    trailing_column = -1  # Of the comment that ended the line before.
-    of_compounds = []    # Those of what is open.
+    above = []            # The comment of the current declarations.
+    trailing_column = -1  # Column of the comment at the end of the previous line.
+    of_compounds = []     # The comments of the open classes and namespaces.
     begins_anew = False
     for i, line in enumerate(lines):
         comment = COMMENT.match(line)
@@ -136,7 +136,7 @@ def convert(lines):
                 spdx = comment.group(2).startswith(' SPDX')
                 text = comment.group(2)
                 if text.endswith(',') and lines[i + 1] == '//':
-                    text = text[:-1] + ':'  # An equation follows; Doxygen would add a full stop.
+                    text = text[:-1] + ':'  # An equation follows; Doxygen would add a period.
                 yield '/// \\file' if i == 0 else '///' if spdx else '///' + escape(text)
                 continue
         if comment and scopes.holds_declarations():
@@ -170,7 +170,7 @@ def convert(lines):
         if len(scopes.declares) > depth:
             of_compounds.append(above)
         elif len(scopes.declares) < depth and of_compounds:
-            above = of_compounds.pop()  # Holds for what is declared right below it, too.
+            above = of_compounds.pop()  # The comment also applies to the next declaration.
 
 
 if __name__ == '__main__':

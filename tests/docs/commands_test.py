@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Every command in README.md and docs/ runs as it stands there.
+"""Runs every command in README.md and docs/ as it is printed there.
 
     commands_test.py BUILD SCRATCH [PYTHON]
 
 Blocks of `sh` are run one after another, page by page, in a scratch folder that
-looks like the repository, built; index.md comes first and makes the inputs that
-the others take for granted. A comment above a block says what is done with it:
+looks like the repository after a build. index.md comes first because it creates
+the input files of the other pages. A comment above a block changes this:
 
-    <!-- long: REASON -->      not run; its programs are there and know its flags
-    <!-- file: PATH -->        it is that file, but for its licence
-    <!-- lines of: PATH -->    its lines stand in that file, in this order
+    <!-- long: REASON -->      not run; only its programs and flags are checked
+    <!-- file: PATH -->        must be identical to that file, except its license
+    <!-- lines of: PATH -->    its lines must appear in that file, in this order
 
-Blocks of `python` are run by PYTHON, which has the module's NumPy; left out
-without. C++ without a comment is README's, which tests/readme_example.cmake
-compiles.
+Blocks of `python` are run by PYTHON, which needs NumPy and the module; without
+PYTHON they are skipped. A `cpp` block needs `file` or `lines of`, so that it is
+compiled as part of a program.
 """
 import os
 import pathlib
@@ -28,7 +28,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r'^(?:<!-- ([^\n]*?) -->\n)?```(\w+)\n(.*?)^```$', re.M | re.S)
-# Of others, whose flags are their own business.
+# Programs of other projects, whose flags are not checked.
 INSTALLED = {'cmake', 'pip', 'cp', 'cat'}
 
 
@@ -39,22 +39,22 @@ def pages():
 
 
 def lay_out(build, scratch):
-    """The repository as its commands see it; what they write stays in scratch."""
+    """Creates scratch as the commands see the repository; all output stays there."""
     shutil.rmtree(scratch, ignore_errors=True)
     (scratch / 'build').mkdir(parents=True)
-    for name in ('features', 'solvers', 'robust', 'third_party', 'tests', 'docs', 'python', 'CMakeLists.txt'):
+    for name in ('features', 'solvers', 'robust', 'third_party', 'tests', 'docs', 'examples', 'python', 'CMakeLists.txt'):
         (scratch / name).symlink_to(ROOT / name)
     for path in [build / 'bin', build / 'python', *build.glob('*.cmake')]:
         if path.exists():
             (scratch / 'build' / path.name).symlink_to(path)
-    # Copies: scripts look for the programs from where they are themselves.
+    # Copied, not linked: scripts look for the programs relative to their own path.
     shutil.copytree(ROOT / 'experiments', scratch / 'experiments',
                     ignore=shutil.ignore_patterns('*.cc', '*.h', 'pictures', 'node_modules', '__pycache__'))
     (scratch / 'experiments/pictures').symlink_to(ROOT / 'experiments/pictures')
 
 
 def commands(block):
-    """Each command of a block as words, without comments."""
+    """Yields each command of a block as a list of words, without comments."""
     for line in block.replace('\\\n', ' ').splitlines():
         words = shlex.split(line, comments=True)
         while words:
@@ -64,20 +64,20 @@ def commands(block):
 
 
 def describe(program):
-    """Where a program's flags are told: its help, or a script's own text."""
+    """Returns the text that lists a program's flags: its help, or a script's source."""
     if program.parent.name != 'bin':
         return program.read_text()
     return subprocess.run([program, '--help'], capture_output=True, text=True).stdout
 
 
 def check_long(block, scratch):
-    """What is wrong with a block that takes too long to run."""
+    """Returns the first problem of a block that takes too long to run, or nothing."""
     for words in commands(block):
         if words[0] in INSTALLED:
             continue
         programs = [scratch / word for word in words if re.match(r'(build/bin|experiments|tests|third_party)/', word)]
         if not programs or programs[0] != scratch / words[0]:
-            return f'{words[0]} is no program of the repository'
+            return f'{words[0]} is not a program of the repository'
         if programs[0].name == 'quatro_benchmark' and not programs[0].exists():
             continue
         text = ''
@@ -85,12 +85,12 @@ def check_long(block, scratch):
             if not os.access(program, os.X_OK):
                 return f'{program.relative_to(scratch)} cannot be run'
             text += describe(program)
-        # Behind " -- " are quatro_register's.
+        # Flags after " -- " are passed to quatro_register.
         if '--' in words:
             text += describe(scratch / 'build/bin/quatro_register')
         for flag in (word for word in words if re.match(r'--\w', word)):
             name = re.match(r'--(?:no)?(\w+)', flag).group(1)
-            if name.startswith('benchmark_'):  # Google Benchmark's, in no help of ours.
+            if name.startswith('benchmark_'):  # Google Benchmark's, not in our help texts.
                 continue
             if not re.search(rf'-{name}\b|"--{name}"|\b{name}\b', text):
                 return f'{words[0]} has no flag {flag}'
@@ -119,7 +119,7 @@ def has_lines(block, path):
 
 
 def check(mark, language, block, scratch, python):
-    """What is wrong with a block; empty if nothing is."""
+    """Returns the first problem of a block, or an empty string."""
     kind, _, argument = (mark or '').partition(': ')
     if kind == 'file':
         return is_file(block, argument)
@@ -129,11 +129,11 @@ def check(mark, language, block, scratch, python):
         return check_long(block, scratch)
     if language == 'sh':
         if not (scratch / 'build/bin/../share/quatro/report_template.html').resolve().exists():
-            block = re.sub(r'^.* --report=.*$', '', block, flags=re.M)  # Built without npm's packages.
+            block = re.sub(r'^.* --report=.*$', '', block, flags=re.M)  # quatro was built without the npm packages.
         return run(['bash', '-euo', 'pipefail', '-c', block], scratch)
     if language == 'python':
         return run([python, '-c', block], scratch, PYTHONPATH='build/python') if python else ''
-    return '' if language in ('cpp', 'cmake') else f'{language}: nobody checks that'
+    return '' if language == 'cmake' else f'{language}: no test checks this block'
 
 
 def main():
@@ -154,9 +154,9 @@ def main():
             if error:
                 errors.append(f'{where} {error}')
     shutil.rmtree(scratch)
-    print(f'{num_run} blocks of commands were run, {num_long} looked at')
+    print(f'{num_run} blocks of commands were run, {num_long} only checked')
     if num_run < 10 or num_run < num_long:
-        errors.append('these are too few')
+        errors.append(f'too few blocks were run: {num_run}, against {num_long} only checked')
     print('\n'.join(errors), file=sys.stderr, end='\n' if errors else '')
     sys.exit(1 if errors else 0)
 

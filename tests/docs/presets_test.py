@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""What docs/parameters.md says of presets is what quatro_register takes: the
-table of them, the lines of sensors that name one, and how fine `auto` is.
+"""Checks what docs/parameters.md says about presets against quatro_register: the
+table of presets, the presets recommended for sensors, and the resolution of
+`auto`.
 
     presets_test.py BUILD SCRATCH
 """
@@ -19,7 +20,7 @@ EXTENSIONS = ('replace_missed_optimum', 'recover_translation', 'polish')
 
 
 def rows():
-    """Name, the five lengths as written and "on" or "off" of each preset."""
+    """Yields each preset: name, the five lengths as written, "on" or "off"."""
     page = (ROOT / 'docs/parameters.md').read_text()
     table = page[page.index('| preset |'):].split('\n\n')[0]
     for line in table.splitlines()[2:]:
@@ -30,7 +31,7 @@ def rows():
 
 
 def sensor_rows():
-    """Preset and the four lengths of each sensor that one is advised for."""
+    """Yields the preset and the four lengths of each sensor that has a preset."""
     for line in (ROOT / 'docs/parameters.md').read_text().splitlines():
         cells = [cell.strip() for cell in line.strip('|').split('|')]
         if len(cells) == 8 and cells[3].startswith('`--preset=') and cells[4]:
@@ -38,7 +39,7 @@ def sensor_rows():
 
 
 def in_metres(size, voxel_size):
-    """ "0.3", or "3 v" of that voxel size."""
+    """Converts "0.3", or "3 v" with v the voxel size, to meters."""
     factor, _, unit = size.replace('v', '1 v' if size == 'v' else 'v').partition(' ')
     return float(factor) * (voxel_size if unit else 1.0)
 

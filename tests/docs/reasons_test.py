@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Every reason that the library or --explain can give is in docs/parameters.md,
-and that page names no other: reasons_test.py
+"""Checks that docs/parameters.md lists exactly the reasons that the library and
+--explain can give: reasons_test.py
 
-Reasons are there in backquotes in the first column of a table, with "..." for
-what varies; in the sources they are the string literals of several words in the
-files below, adjacent ones joined. A refused option ("..., must be > 0") is one
-reason for all.
+In the page, a reason is text in backquotes in the first column of a table, with
+"..." for the parts that vary. In the sources, a reason is a string literal of
+three or more words in one of the files below; adjacent literals are joined. All
+rejected options ("..., must be > 0") share one row.
 """
 import pathlib
 import re
@@ -24,7 +24,7 @@ LITERAL = re.compile(r'"((?:\\.|[^"\\])*)"')
 
 
 def advice_alone(text):
-    """Of explain.cc what says what to do: its other literals describe."""
+    """Returns the part of explain.cc that gives advice; the rest describes stages."""
     return text[text.index('std::vector<std::string> Advice'):text.index('return advice;\n}')]
 
 
@@ -61,7 +61,7 @@ def main():
         for literal in longest_first:
             rest = re.sub(rf'(?<!\w){re.escape(literal)}(?!\w)', '', rest)
         if re.search(r'\w', rest):
-            errors.append(f'docs/parameters.md: "{reason}": the sources do not say "{rest.strip()}"')
+            errors.append(f'docs/parameters.md: "{reason}": no source contains "{rest.strip()}"')
     if len(sources) < 60 or len(page) < 60:
         errors.append(f'only {len(sources)} reasons in the sources, {len(page)} in the page')
     print('\n'.join(errors), file=sys.stderr, end='\n' if errors else '')

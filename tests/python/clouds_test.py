@@ -144,7 +144,7 @@ def test_the_example_draws(tmp_path):
         np.column_stack([points, 0 * points[:, 0]]).astype(np.float32).tofile(
             tmp_path / (name + '.bin'))
     example = (pathlib.Path(__file__).resolve().parents[2] /
-               'python/examples/draw_registration.py')
+               'examples/python/draw_registration.py')
     command = [sys.executable, example, 'source.bin', 'target.bin', '--output', 'drawing.png']
     run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False,
                          env={**os.environ, 'MPLCONFIGDIR': str(tmp_path)})

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Registers two clouds and draws them, from above, before and after.
+"""Registers two clouds and draws them from above, before and after.
 
-  python/examples/draw_registration.py SOURCE TARGET [--preset kitti]
+  examples/python/draw_registration.py SOURCE TARGET [--preset kitti]
       [--method quatro] [--output drawing.png]
 
-Without --output it opens a window. Works cell by cell in a notebook, too.
+Without --output a window opens. The script can also be run cell by cell in a
+notebook.
 """
 
-# %% What to register
+# %% Arguments
 import argparse
 import os
 import sys
@@ -23,9 +24,8 @@ parser.add_argument('source', help='.bin (KITTI), .ply or .pcd')
 parser.add_argument('target')
 parser.add_argument('--preset', default='kitti', choices=quatro.presets())
 parser.add_argument('--method', default='quatro', choices=quatro.methods())
-parser.add_argument('--output', help='a picture; a window without')
+parser.add_argument('--output', help='picture to write; without it a window opens')
 args = parser.parse_args()
-
 
 
 def refuse(problem):
@@ -47,7 +47,7 @@ try:
 except ValueError as error:
     refuse(error)
 print(answer)
-print('%d voxels and %d voxels, %d matches, of which %d agree' %
+print('%d and %d voxels, %d matches, %d inliers' %
       (answer.num_source_voxels, answer.num_target_voxels,
        len(answer.matched_source), len(answer.inliers)))
 for stage, seconds in answer.stage_seconds.items():
@@ -81,7 +81,7 @@ is_inlier[answer.inliers] = True
 for k in range(len(p)):
     before.plot([p[k, 0], q[k, 0]], [p[k, 1], q[k, 1]], linewidth=0.3,
                 color='tab:green' if is_inlier[k] else '0.8', zorder=is_inlier[k])
-before.set_title('%d matches, green: %d that agree' % (len(p), is_inlier.sum()))
+before.set_title('%d matches, %d inliers (green)' % (len(p), is_inlier.sum()))
 before.set_ylabel('y [m]')
 draw(after, target, 'tab:blue', 'target')
 if answer.target_from_source is not None:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// An estimator of one's own, in every table of quatro_experiment.
+// Adds an estimator to every table of quatro_experiment.
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,8 @@ namespace {
 constexpr int kNumBins = 720;
 constexpr int kNumPairs = 20000;
 
-// The turn that most pairs of matches vote for; a pair votes if its length in
-// the plane is kept.
+// Returns the yaw that most pairs of matches vote for [rad]. A pair votes if
+// its planar lengths in both scans differ by at most twice the noise bound.
 double VoteYaw(const quatro::PointsRef& source,
                const quatro::PointsRef& target,
                const quatro::QuatroOptions& options) {
@@ -33,9 +33,9 @@ double VoteYaw(const quatro::PointsRef& source,
     const Eigen::Vector2d b = (target.col(i) - target.col(j)).head<2>();
     const double gap = std::abs(a.norm() - b.norm());
     if (a.norm() < 1.0 || gap > 2.0 * options.noise_bound) continue;
-    const double turn = std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x());
-    const double part = turn / (2.0 * M_PI);
-    const auto bin = static_cast<int>(kNumBins * (part - std::floor(part)));
+    const double yaw = std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x());
+    const double turns = yaw / (2.0 * M_PI);
+    const auto bin = static_cast<int>(kNumBins * (turns - std::floor(turns)));
     ++votes[static_cast<std::size_t>(std::min(bin, kNumBins - 1))];
   }
   const auto most = std::max_element(votes.begin(), votes.end());
@@ -51,7 +51,7 @@ quatro::PoseSummary SolveByVotes(const quatro::PointsRef& source,
   summary.num_matches = source.cols();
   if (source.cols() < 2) {
     summary.termination = quatro::PoseTermination::kInsufficient;
-    summary.message = "a heading needs two matches";
+    summary.message = "at least two matches are needed";
     return summary;
   }
   quatro::Rigid3 pose;
@@ -60,14 +60,14 @@ quatro::PoseSummary SolveByVotes(const quatro::PointsRef& source,
                          pose.rotation * source, target, options.noise_bound)
                          ->target_from_source;
 
-  // Twice the least squares of those that agree.
+  // Fit the pose to its inliers by least squares, twice.
   for (int round = 0; round < 2; ++round) {
-    const auto agreeing =
+    const auto inliers =
         quatro::FindInliers(source, target, pose, options.noise_bound);
     const auto fit = quatro::EstimateYawTranslation(
-        source(Eigen::all, agreeing),
-        target(Eigen::all, agreeing),
-        quatro::Weights::Ones(static_cast<Eigen::Index>(agreeing.size())));
+        source(Eigen::all, inliers),
+        target(Eigen::all, inliers),
+        quatro::Weights::Ones(static_cast<Eigen::Index>(inliers.size())));
     if (fit) pose = fit->target_from_source;
   }
   summary.translation_inliers =
