@@ -226,7 +226,8 @@ std::string ErrorWith(const std::string& column, const std::string& text) {
 TEST(PairResultCsv, ABadLineNamesItsColumn) {
   EXPECT_EQ(ErrorWith("pair", ""), "column pair is empty");
   EXPECT_EQ(ErrorWith("method", ""), "column method is empty");
-  EXPECT_EQ(ErrorWith("status", "fine"), "column status is no status: 'fine'");
+  EXPECT_EQ(ErrorWith("status", "fine"),
+            "column status is not a status: 'fine'");
   // Nothing that a terminal would act upon.
   for (const char* const column : {"status", "m22", "matches", "stages_ms"}) {
     EXPECT_THAT(ErrorWith(column, "1\x1b[2J\x7f"), HasSubstr("'1?[2J?'"));
@@ -244,7 +245,7 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
                                    "total_ms"}) {
     for (const char* const text : {"x", "nan", "inf", "1e999", "1 ", "0x1"}) {
       EXPECT_EQ(ErrorWith(column, text),
-                std::string("column ") + column + " is no finite number: '" +
+                std::string("column ") + column + " is not a finite number: '" +
                     text + "'");
     }
   }
@@ -252,7 +253,7 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
     for (const char* const text : {"", "-1", "1.5", "99999999999999999999"}) {
       EXPECT_EQ(
           ErrorWith(column, text),
-          std::string("column ") + column + " is no count: '" + text + "'");
+          std::string("column ") + column + " is not a count: '" + text + "'");
     }
   }
   EXPECT_THAT(ErrorWith("probability", "1.1"),
@@ -333,7 +334,7 @@ TEST_F(ResultFileTest, ThatIsBadNamesLineAndColumn) {
   std::string bad = good;
   bad.replace(bad.find("registered"), 10, "done");
   EXPECT_EQ(ErrorOf(header + bad + "\n"),
-            "line 2 column status is no status: 'done'");
+            "line 2 column status is not a status: 'done'");
 }
 
 TEST_F(ResultFileTest, ThatIsMissingIsNamed) {
