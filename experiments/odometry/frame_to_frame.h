@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Odometry from any registration of two clouds: each scan onto the last that
-// was tracked,
+// Odometry from any registration of two clouds. Each scan is registered to the
+// last tracked scan,
 //
 //   world_from_scan = world_from_last last_from_scan.                      (1)
 
@@ -25,17 +25,17 @@ struct FrameAlignment {
   std::string message;
 };
 
-// A global method does not look at the guess.
+// A global method ignores the guess.
 using FrameAligner =
     std::function<FrameAlignment(const PointCloud& source,
                                  const PointCloud& target,
                                  const Rigid3& target_from_source_guess)>;
 
-// By Register(). Its pose counts whether or not it is vouched for, as in the
-// paper's table; the message holds the verdict.
+// Uses Register(). Its pose is used whether or not it is registered, as in the
+// paper's table; the message contains the verdict.
 FrameAligner MakeRegistrationAligner(const RegistrationOptions& options);
 
-// The same by a method from clouds.
+// Uses a method that works on clouds.
 FrameAligner MakeCloudAligner(const CloudSolver& solver,
                               const RegistrationOptions& options);
 

@@ -263,7 +263,7 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
   EXPECT_THAT(ErrorWith("yaw_error_deg", ""),
               StartsWith("column yaw_error_deg is empty"));
   EXPECT_THAT(ErrorWith("m11", ""), StartsWith("column m11 is empty"));
-  EXPECT_THAT(ErrorWith("m11", "0.5"), HasSubstr("no rotation"));
+  EXPECT_THAT(ErrorWith("m11", "0.5"), HasSubstr("not a rotation"));
   EXPECT_THAT(ErrorWith("total_ms", ""), StartsWith("column total_ms"));
   for (const char* const text : {"voxels", "=3", "voxels=x", "voxels=-1"}) {
     EXPECT_THAT(ErrorWith("stages_ms", text), StartsWith("column stages_ms"));
@@ -285,7 +285,7 @@ TEST(PairResultCsv, AnErrorNeedsAPose) {
   result.target_from_source.reset();
   std::string error;
   EXPECT_FALSE(ParseResultCsv(FormatResultCsv(result), &error));
-  EXPECT_THAT(error, HasSubstr("yet there is an error"));
+  EXPECT_THAT(error, HasSubstr("but the line has an error"));
 }
 
 class ResultFileTest : public ProgramTest {
@@ -329,7 +329,7 @@ TEST_F(ResultFileTest, ThatIsBadNamesLineAndColumn) {
   EXPECT_THAT(ErrorOf(good + "\n"), StartsWith("line 1 must be pair,set"));
   EXPECT_EQ(ErrorOf(header + good + "\n" + "a,b\n"),
             "line 3 has 2 columns, must have 29");
-  EXPECT_EQ(ErrorOf(header + good), "line 2 is cut off");
+  EXPECT_EQ(ErrorOf(header + good), "line 2 is truncated");
   EXPECT_THAT(ErrorOf(header + "\n" + good + "\n"), StartsWith("line 2 has 1"));
   std::string bad = good;
   bad.replace(bad.find("registered"), 10, "done");
