@@ -202,7 +202,7 @@ bool TakeManifest(const std::string& folder,
   if (!was) return false;
   std::string difference;
   if (DecidesTheSame(*was, manifest, &difference)) return true;
-  *error = folder + ": is of another run: " + difference +
+  *error = folder + ": belongs to another run: " + difference +
            "; take another --output, or the flags and data it began with";
   return false;
 }

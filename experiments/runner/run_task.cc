@@ -86,7 +86,7 @@ bool RunMethods::IsValid(std::string* error) const {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!FindPairSolver(names[i], own, error)) return false;
     if (std::count(names.begin(), names.end(), names[i]) > 1) {
-      *error = "method " + names[i] + " comes twice";
+      *error = "method " + names[i] + " is listed twice";
       return false;
     }
   }

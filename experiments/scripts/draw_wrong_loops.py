@@ -26,12 +26,12 @@ STYLES = {
 TITLES = {"manhattan": "Manhattan, in the plane", "sphere": "Sphere, in space"}
 
 
-COLUMNS = ("world", "sigma_m", "sigma_deg", "loss", "wrong_share", "right", "runs",
+COLUMNS = ("world", "sigma_m", "sigma_deg", "loss", "wrong_share", "correct", "runs",
            "median_error_m")
 
 
 def read_curves(paths):
-    """(world, noise) -> loss -> (share, right, error) of each point."""
+    """(world, noise) -> loss -> (share, correct, error) of each point."""
     curves = {}
     for path in paths:
         rows, _ = read_rows(path, COLUMNS)
@@ -41,7 +41,7 @@ def read_curves(paths):
         for line, row in rows:
             panel = row["world"], row["sigma_m"], row["sigma_deg"]
             try:
-                point = (100 * float(row["wrong_share"]), 100 * int(row["right"]) / int(row["runs"]),
+                point = (100 * float(row["wrong_share"]), 100 * int(row["correct"]) / int(row["runs"]),
                          max(float(row["median_error_m"]), 1e-9))
                 STYLES[row["loss"]]
             except (KeyError, TypeError, ValueError, ZeroDivisionError):
@@ -62,8 +62,8 @@ def main(arguments):
     for column, ((world, sigma_m, sigma_deg), by_loss) in enumerate(curves.items()):
         for loss, points in by_loss.items():
             label, color, marker, line = STYLES[loss]
-            x, right, error = zip(*points)
-            for axis, y in ((axes[0, column], right), (axes[1, column], error)):
+            x, correct, error = zip(*points)
+            for axis, y in ((axes[0, column], correct), (axes[1, column], error)):
                 axis.plot(x, y, label=label, color=color, marker=marker, linestyle=line, clip_on=False)
         axes[0, column].set_title(f"{TITLES.get(world, world)}\nnoise {sigma_m} m, {sigma_deg} deg")
         axes[0, column].set_ylim(0, 103)

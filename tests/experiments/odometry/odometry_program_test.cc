@@ -167,10 +167,10 @@ TEST_F(OdometryProgramTest, ATableGoesOnAsWhatItWas) {
   EXPECT_THAT(Read("run/table_two.csv"), HasSubstr("\nfgr,measured,"));
   ExpectBadInput("quatro_experiment",
                  flags("--preset=paper"),
-                 "is of another run",
+                 "belongs to another run",
                  "--preset was 'kitti', is 'paper'");
   ExpectBadInput(
-      "quatro_experiment", flags("--max_frames=5"), "is of another run", "");
+      "quatro_experiment", flags("--max_frames=5"), "belongs to another run", "");
 
   const ProgramRun tilt = RunProgram("quatro_experiment",
                                      {"--protocol=tilt",

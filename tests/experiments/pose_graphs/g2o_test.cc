@@ -101,7 +101,7 @@ TEST_F(G2oTest, RefusesWhatItDoesNotKnow) {
   ExpectRefused("", "has no poses");
   ExpectRefused("# nothing\n\n", "has no poses");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_XY 1 0 0\n",
-                "line 2: 'VERTEX_XY' is not known");
+                "line 2: 'VERTEX_XY' is not a known tag");
   ExpectRefused("VERTEX_SE2 a 0 0 0\n", "line 1: pose 'a' is not an id");
   ExpectRefused("VERTEX_SE2 -1 0 0 0\n", "'-1' is not an id");
   ExpectRefused("VERTEX_SE2 1.5 0 0 0\n", "'1.5' is not an id");
@@ -112,7 +112,7 @@ TEST_F(G2oTest, RefusesWhatItDoesNotKnow) {
   ExpectRefused("VERTEX_SE2 0 0 nan 0\n", "'nan' is not finite");
   ExpectRefused("VERTEX_SE2 0 inf 0 0\n", "'inf' is not finite");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 0 1 0 0\n",
-                "line 2: pose 0 is there already");
+                "line 2: pose 0 was defined before");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n",
                 "line 2: SE2 and SE3 in one file");
   ExpectRefused("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 0\n", "quaternion has length");

@@ -236,7 +236,7 @@ TEST(PoseGraphWorldOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   expect_error({.world = "flat"}, "world = flat");
   expect_error({.num_poses = 10}, "poses = 10");
   expect_error({.num_loops = -1}, "loops = -1");
-  expect_error({.num_loops = 100000}, "pairs of poses for right ones");
+  expect_error({.num_loops = 100000}, "pairs of poses for inlier loops");
   expect_error({.wrong_share = 1.5}, "wrong_share = 1.5");
   expect_error({.translation_sigma = 0.0}, "sigma_m = 0");
   expect_error({.rotation_sigma = -1.0}, "sigma_deg = -57");

@@ -218,7 +218,7 @@ TEST_F(ExperimentProgramTest, ProblemsAreStoppedGoneOnWithAndSharedOutToo) {
   EXPECT_EQ(TablesOf("parts"), TablesOf("whole"));
   ExpectBadInput("quatro_experiment",
                  flags("whole", "--seeds=3"),
-                 "is of another run",
+                 "belongs to another run",
                  "tasks");
   ExpectBadInput("quatro_experiment",
                  flags("other", "--families=magic"),
@@ -247,13 +247,13 @@ TEST_F(ExperimentProgramTest, OtherFlagsOrDataAreNotMixedIn) {
   ASSERT_EQ(RunProgram("quatro_experiment", Flags("run")).exit_code, 0);
   ExpectBadInput("quatro_experiment",
                  Flags("run", "--seed=2"),
-                 "is of another run",
+                 "belongs to another run",
                  "seed");
   std::string list = Read("pairs.csv");
   list.replace(list.find("0.8,"), 3, "0.9");
   Write("pairs.csv", list);
   ExpectBadInput(
-      "quatro_experiment", Flags("run"), "is of another run", "tasks");
+      "quatro_experiment", Flags("run"), "belongs to another run", "tasks");
 }
 
 TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {

@@ -575,9 +575,9 @@ TEST(ProblemFamiliesTest, SeedsMakeOtherProblemsAndBadOptionsAreTold) {
   bad.families = {"noise", "magic"};
   expect_refused(bad, "no family magic");
   bad.families = {"noise", "noise"};
-  expect_refused(bad, "noise comes twice");
+  expect_refused(bad, "noise is listed twice");
   bad.families = {};
-  expect_refused(bad, "no family is named");
+  expect_refused(bad, "there is no family");
   bad = options;
   bad.num_problems = 0;
   expect_refused(bad, "num_problems = 0");

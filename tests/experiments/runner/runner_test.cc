@@ -340,7 +340,7 @@ TEST_F(RunTasksTest, AViewIsOfAllMethodsAndAlwaysTheSame) {
 TEST_F(RunTasksTest, TwoTasksOfOneNameAreRefused) {
   tasks_[1].name = tasks_[0].name;
   EXPECT_EQ(Run({}), RunEnd::kFailed);
-  EXPECT_THAT(error_, HasSubstr("pair pair 0 comes twice"));
+  EXPECT_THAT(error_, HasSubstr("pair pair 0 is listed twice"));
 }
 
 TEST_F(RunTasksTest, AnOwnMethodStandsBesideOurs) {
@@ -450,7 +450,7 @@ TEST(RunProblemTest, MethodsThatNeedMoreThanMatchesAreRefused) {
   EXPECT_THAT(error, HasSubstr("quatro_ins needs an INS"));
   methods.names = {"quatro", "quatro"};
   EXPECT_FALSE(CanRunProblems(methods, &error));
-  EXPECT_THAT(error, HasSubstr("comes twice"));
+  EXPECT_THAT(error, HasSubstr("is listed twice"));
 }
 
 TEST(RunMethodsTest, AnOwnNameIsKnownUnlessItIsOneOfOurs) {
@@ -475,7 +475,7 @@ TEST(RunMethodsTest, NamesAreOfTheRegistryAndComeOnce) {
   EXPECT_TRUE(methods.IsValid(&error)) << error;
   methods.names = {"quatro", "quatro"};
   EXPECT_FALSE(methods.IsValid(&error));
-  EXPECT_THAT(error, HasSubstr("comes twice"));
+  EXPECT_THAT(error, HasSubstr("is listed twice"));
   methods.names = {"aloam"};
   EXPECT_FALSE(methods.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("odometry"));

@@ -55,7 +55,7 @@ std::map<std::string, std::string> RowOf(const Table& table,
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < row.size(); ++i) {
       EXPECT_TRUE(cells.emplace(table.columns[i], row[i]).second)
-          << table.columns[i] << " comes twice";
+          << table.columns[i] << " is listed twice";
     }
     return cells;
   }
