@@ -56,7 +56,7 @@ std::vector<Method> MakeMethods() {
   return {MakeMethod<&Options::quatro, SolveQuatro>(
               "quatro", "clique, yaw by GNC, translation by axis", true),
           {"quatro_exact",
-           "the same with the yaw's global optimum in place of GNC",
+           "quatro with the globally optimal yaw instead of GNC",
            true,
            ListExactOptions,
            IsValid<&Options::quatro>,
@@ -70,7 +70,7 @@ std::vector<Method> MakeMethods() {
               "TEASER++: exact clique, SO(3) by GNC, translation by axis",
               false),
           MakeMethod<&Options::fgr, SolveFgr>(
-              "fgr", "FGR: SE(3) by a line process, mu falling", false),
+              "fgr", "FGR: SE(3) by a line process with decreasing mu", false),
           MakeMethod<&Options::ransac, SolveRansacWithoutNormals>(
               "ransac", "RANSAC with local optimisation", false)};
 }

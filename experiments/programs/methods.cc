@@ -24,7 +24,7 @@
 namespace quatro {
 namespace {
 
-// Matches above which a graph of them no longer pays.
+// Above this number of matches, a consistency graph is too expensive.
 constexpr Eigen::Index kMaxGraphMatches = 20000;
 
 PoseSolver MakeQuatro(const QuatroOptions& options) {
@@ -186,9 +186,9 @@ RegistrationSummary RegisterBy(
 
 enum class Ins { kRefused, kTaken, kNeeded };
 
-// From matches, `make`, from clouds with matches, `register_matched`, or
-// without, `register_clouds`, or else an odometry
-// (experiments/odometry/odometry_methods.h).
+// A method has `make` if it works on matches, `register_matched` if it works on
+// clouds and their matches, `register_clouds` if it works on clouds alone, and
+// none of them if it is an odometry (experiments/odometry/odometry_methods.h).
 struct Method {
   const char* name;
   const char* description;
@@ -209,7 +209,7 @@ struct Method {
 
 constexpr Method kMethods[] = {
     {"auto",
-     "quatro; above 20,000 matches arc_consensus",
+     "quatro; arc_consensus above 20,000 matches",
      MakeAuto,
      Ins::kTaken},
     {"quatro",
@@ -217,11 +217,11 @@ constexpr Method kMethods[] = {
      MakeQuatro,
      Ins::kTaken},
     {"quatro_exact",
-     "the same with the yaw's global optimum in place of GNC",
+     "quatro with the globally optimal yaw instead of GNC",
      [](const QuatroOptions& options) { return MakeQuatroExact(options); },
      Ins::kTaken},
     {"quatro_ins",
-     "quatro with roll and pitch of an INS, which must be given",
+     "quatro with roll and pitch of an INS (required)",
      MakeQuatro,
      Ins::kNeeded},
     {"arc_consensus",
@@ -231,21 +231,21 @@ constexpr Method kMethods[] = {
     {"teaser",
      "TEASER++: exact clique, SO(3) by GNC, translation by axis",
      MakeTeaser},
-    {"fgr", "FGR: SE(3) by a line process, mu falling", MakeFgr},
+    {"fgr", "FGR: SE(3) by a line process with decreasing mu", MakeFgr},
     {"ransac1k",
-     "RANSAC: three points, 1,000 samples at most",
+     "RANSAC: three points, at most 1,000 samples",
      [](const QuatroOptions& options) { return MakeRansac(options, 1000); }},
     {"ransac10k",
-     "RANSAC: three points, 10,000 samples at most",
+     "RANSAC: three points, at most 10,000 samples",
      [](const QuatroOptions& options) { return MakeRansac(options, 10'000); }},
 #ifdef QUATRO_WITH_OPEN3D
-    {"open3d_fgr", "FGR of Open3D, the same matches", MakeOpen3dFgr},
+    {"open3d_fgr", "FGR of Open3D, on the same matches", MakeOpen3dFgr},
     {"open3d_ransac",
-     "RANSAC of Open3D, 10,000 samples at most",
+     "RANSAC of Open3D, at most 10,000 samples",
      MakeOpen3dRansac},
 #endif
 #ifdef QUATRO_WITH_PCL
-    {"pcl_ransac", "RANSAC of PCL, 10,000 samples at most", MakePclRansac},
+    {"pcl_ransac", "RANSAC of PCL, at most 10,000 samples", MakePclRansac},
 #endif
     {"quatro_c2f",
      "clouds: quatro, then G-ICP from its pose",
@@ -254,59 +254,59 @@ constexpr Method kMethods[] = {
      nullptr,
      RefineQuatro},
     {"icp",
-     "clouds: point to point from no motion",
+     "clouds: point to point, starting at the identity",
      nullptr,
      Ins::kRefused,
      RegisterFromGuess<RefinementMethod::kIcp>},
     {"gicp",
-     "clouds: plane to plane from no motion",
+     "clouds: plane to plane, starting at the identity",
      nullptr,
      Ins::kRefused,
      RegisterFromGuess<RefinementMethod::kGicp>},
     {"vgicp",
-     "clouds: plane to voxels' planes from no motion",
+     "clouds: plane to voxel planes, starting at the identity",
      nullptr,
      Ins::kRefused,
      RegisterFromGuess<RefinementMethod::kVgicp>},
 #ifdef QUATRO_WITH_OPEN3D
     {"open3d_icp",
-     "clouds: ICP of Open3D from no motion, the same voxels",
+     "clouds: ICP of Open3D, starting at the identity, same voxels",
      nullptr,
      Ins::kRefused,
      RegisterByPeer<AlignByOpen3d, RefinementMethod::kIcp>},
     {"open3d_gicp",
-     "clouds: G-ICP of Open3D from no motion, the same voxels",
+     "clouds: G-ICP of Open3D, starting at the identity, same voxels",
      nullptr,
      Ins::kRefused,
      RegisterByPeer<AlignByOpen3d, RefinementMethod::kGicp>},
     {"open3d_fpfh",
-     "clouds: quatro on matches of Open3D's FPFH, the same normals",
+     "clouds: quatro on matches of Open3D's FPFH, same normals",
      nullptr,
      Ins::kRefused,
      RegisterByPeerFpfh<ComputeFpfhByOpen3d>},
 #endif
 #ifdef QUATRO_WITH_PCL
     {"pcl_icp",
-     "clouds: ICP of PCL from no motion, the same voxels",
+     "clouds: ICP of PCL, starting at the identity, same voxels",
      nullptr,
      Ins::kRefused,
      RegisterByPeer<AlignByPcl, RefinementMethod::kIcp>},
     {"pcl_gicp",
-     "clouds: G-ICP of PCL from no motion, the same voxels",
+     "clouds: G-ICP of PCL, starting at the identity, same voxels",
      nullptr,
      Ins::kRefused,
      RegisterByPeer<AlignByPcl, RefinementMethod::kGicp>},
     {"pcl_fpfh",
-     "clouds: quatro on matches of PCL's FPFH, the same normals",
+     "clouds: quatro on matches of PCL's FPFH, same normals",
      nullptr,
      Ins::kRefused,
      RegisterByPeerFpfh<ComputeFpfhByPcl>},
 #endif
     {"aloam",
-     "scans in a row (quatro_odometry): edges and planes, like A-LOAM",
+     "odometry (quatro_odometry): edges and planes, like A-LOAM",
      nullptr},
     {"suma",
-     "scans in a row (quatro_odometry): surfels, projective, like SuMa",
+     "odometry (quatro_odometry): surfels, projective, like SuMa",
      nullptr},
 };
 
@@ -367,8 +367,9 @@ PoseSolver MakeLevelSolver(const std::string& name,
   for (const Method& method : kMethods) {
     if (name != method.name) continue;
     if (method.IsOdometry()) {
-      *error = "--method=" + name +
-               " is an odometry, of scans in a row: run quatro_odometry";
+      *error =
+          "--method=" + name +
+          " is an odometry and needs successive scans: run quatro_odometry";
       return nullptr;
     }
     if (!method.make) {
@@ -446,7 +447,7 @@ PairSolver FindPairSolver(const std::string& name, std::string* error) {
       return RegisterBy(method.make, matched, options);
     };
   }
-  // Says what is wrong with the name.
+  // Sets *error if the name is unknown.
   MakeSolver(name, QuatroOptions(), error);
   return nullptr;
 }
@@ -458,7 +459,7 @@ PairSolver FindPairSolver(const std::string& name,
     if (name != method.name) continue;
     for (const Method& known : kMethods) {
       if (name != known.name) continue;
-      *error = "there is a method " + name + " already";
+      *error = "there is already a method " + name;
       return nullptr;
     }
     return [make = method.make](const PointCloud&,

@@ -19,7 +19,7 @@ made. The model of matches alone is fitted without places that have a twin, whic
 matches cannot tell. Weights to go into robust/verdict/success_model.cc are printed, by the half that
 was fitted: what is reported is what ships.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import collections
 import hashlib

@@ -15,7 +15,7 @@ together, and how many of these are within a factor of 1.5.
 A list is a pairs.csv as run_pairs.py reads it, or a folder in KITTI's layout, of
 which pairs of frames are drawn: beside real ones, within 0.4 m of their distances
 and 20 deg of their turns where there are such. Of a real list, scans of less than --min_points
-are left out: they have been thinned. Exit code: 0; 2 if a flag or a file is wrong.
+are left out: they have been thinned. Exit code: 0; 2 if a flag or a file is invalid.
 """
 import collections
 import csv

@@ -23,7 +23,7 @@ left out: each that is there counts as registered. Empty lines, those that start
 with # and a first one that starts with source,target are passed over, and so are
 pairs of sets that are excluded.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import csv
 import json

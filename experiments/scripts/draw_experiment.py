@@ -18,7 +18,7 @@ of --protocol=tilt, as PDF and PNG.
 
 Figures for which the run has no pairs are left out. Names of the files written go
 to standard output.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import math
 import os

@@ -10,7 +10,7 @@ all yaws, iteration by iteration, with the exact optimum marked.
 
 A row a film.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import matplotlib
 

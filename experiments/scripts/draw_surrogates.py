@@ -6,7 +6,7 @@
     build/bin/quatro_experiment --protocol=surrogates --output=surrogates.csv
     experiments/scripts/with_python.sh matplotlib experiments/scripts/draw_surrogates.py surrogates.csv surrogates.png
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import matplotlib
 

@@ -7,7 +7,7 @@
     build/bin/quatro_pose_graph --protocol=wrong_loops --sigma_m=0.1 --sigma_deg=4 --output=b.csv
     experiments/scripts/with_python.sh matplotlib experiments/scripts/draw_wrong_loops.py a.csv b.csv wrong_loops.png
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import matplotlib
 

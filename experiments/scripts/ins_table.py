@@ -21,7 +21,7 @@ then the error of the answer, --ins_mode none (plain), relative, leveled and
 fused, --polish off and on. [deg]; "-" where there is no answer.
 
 The table goes to standard output, progress to standard error.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import concurrent.futures
 import math

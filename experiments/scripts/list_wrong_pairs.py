@@ -10,7 +10,7 @@ scans of the sets that --same names. Of any two places --each pairs are listed,
 evenly over their scans, without a pose: no registration of them is right. The
 list is for run_pairs.py and holds absolute paths.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import csv
 import io

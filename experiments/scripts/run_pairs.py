@@ -17,7 +17,7 @@ scans share no place, and the right answer is not to register them.
 The summary goes to standard output, progress to standard error. A run that was
 stopped is gone on with by the same command: what is done is in the output's
 name with .part added.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import collections
 import concurrent.futures

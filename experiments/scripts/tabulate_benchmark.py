@@ -13,7 +13,7 @@ run; a library's column has its time and, in brackets, that over ours; "of one
 thread" is the time of threads:2 over that of threads:1; memory is the peak, and
 over the bits of a graph. The picture, for which Matplotlib is needed
 (with_python.sh finds a Python that has it), shows times over N.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import collections
 import json

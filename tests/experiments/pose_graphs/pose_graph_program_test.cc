@@ -30,7 +30,8 @@ TEST_F(PoseGraphProgramTest, GeneratedWorldIsFoundAndWritten) {
                                      "--output=" + PathOf("answer.g2o"),
                                      "--world_output=" + PathOf("world.g2o")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("of 30 wrong loops 0 kept weight, 0 right"));
+  EXPECT_THAT(run.out,
+              HasSubstr("30 outlier loops, 0 of them accepted; 0 inlier"));
 
   // The world as a file comes to the same answer.
   const ProgramRun again = RunProgram(

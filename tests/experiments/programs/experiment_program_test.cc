@@ -285,7 +285,7 @@ TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
                     "--output=" + PathOf("run"),
                     std::string("--intervals=1,") + text},
                    "--intervals",
-                   "is no number of frames");
+                   "is not a number of frames");
   }
   for (const char* text : {"0", "1e-09", "nan", "181"}) {
     ExpectBadInput("quatro_experiment",

@@ -346,7 +346,8 @@ TEST_F(SimulateProgramTest, StoppedItLeavesNothing) {
     const int status = std::system(command.c_str());
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 3) << flags;
-    EXPECT_THAT(Read("err.txt"), HasSubstr("stopped; nothing is left of it"));
+    EXPECT_THAT(Read("err.txt"),
+                HasSubstr("interrupted; the partial sequence was removed"));
     fs::remove(PathOf("err.txt"));
     EXPECT_THAT(Contents(), ::testing::IsEmpty());
   };
@@ -361,7 +362,7 @@ TEST_F(SimulateProgramTest, RefusesFlagsThatItWouldNotUse) {
     ExpectBadInput("quatro_simulate",
                    {"--output=" + PathOf("a"), "--protocol=" + protocol, flag},
                    flag.substr(0, flag.find('=')) +
-                       " does not go with --protocol=" + protocol,
+                       " cannot be used with --protocol=" + protocol,
                    "only with: " + protocols + "\n");
   };
   expect("sequence", "--sensor=foo", "drive, pairs");

@@ -199,7 +199,8 @@ TEST(AlignToLinesAndPlanes, GroundOrATunnelAloneHoldNoPose) {
   for (const auto& axes : {std::vector<int>{2}, std::vector<int>{1, 2}}) {
     const auto summary = AlignToLinesAndPlanes({}, AxisPlanes(axes), {}, {});
     EXPECT_FALSE(summary.target_from_source);
-    EXPECT_THAT(summary.message, ::testing::HasSubstr("six freedoms"));
+    EXPECT_THAT(summary.message,
+                ::testing::HasSubstr("six degrees of freedom"));
   }
   const auto room = AlignToLinesAndPlanes({}, AxisPlanes({0, 1, 2}), {}, {});
   EXPECT_TRUE(room.target_from_source) << room.message;
