@@ -49,7 +49,7 @@ export function runTable(table) {
 export function mainSummary(table) {
   const set = table.columns.indexOf('set');
   const hasAll = table.rows.some((row) => row[set] === 'all');
-  const isWanted = (name) => /^(method|pairs|answers|registered|wrong registered)$/.test(name) ||
+  const isWanted = (name) => /^(method|pairs|answers|registered|false registrations)$/.test(name) ||
       /^success % |^successes \/ (t|r) median/.test(name);
   const kept = table.columns.map((name, i) => i)
       .filter((i) => isWanted(table.columns[i].replace(/ (low|high)$/, '')));

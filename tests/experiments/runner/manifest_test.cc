@@ -103,7 +103,7 @@ TEST(Manifest, WhatIsMissingOrOfAnotherTypeIsNamed) {
   EXPECT_EQ(error, "flags.pre??set must be text");
   for (const char* const text : {"", "[]", "{", "3"}) {
     EXPECT_FALSE(ParseManifest(text, &error));
-    EXPECT_EQ(error, "is no JSON object");
+    EXPECT_EQ(error, "is not a JSON object");
   }
 }
 

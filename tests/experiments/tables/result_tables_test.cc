@@ -149,7 +149,7 @@ TEST(BinTable, HasARowAMethodAndBin) {
   EXPECT_EQ(row.at("all answers / r median deg"), "2.000");
   EXPECT_EQ(row.at("all answers / yaw avg deg"), "1.000");
   const auto wrong = RowOf(table, "a", "yaw 90 deg");
-  EXPECT_EQ(wrong.at("wrong registered"), "1");
+  EXPECT_EQ(wrong.at("false registrations"), "1");
   EXPECT_EQ(wrong.at("successes / t_avg m"), "");
   EXPECT_EQ(wrong.at("all answers / t_avg m"), "9.000");
 }
@@ -165,7 +165,7 @@ TEST(SummaryTable, HasARowAMethodAndSetAndOneOfAll) {
   EXPECT_EQ(all.at("apart"), "1");
   EXPECT_EQ(all.at("answers"), "1");
   EXPECT_EQ(all.at("registered"), "2");
-  EXPECT_EQ(all.at("wrong registered"), "1");
+  EXPECT_EQ(all.at("false registrations"), "1");
   EXPECT_EQ(all.at("success % / 2 m 5 deg"), "50.00");
   EXPECT_EQ(all.at("success % / 2 m 5 deg high"),
             NumberCell(100.0 * WilsonInterval(1, 2).high, 2));
@@ -184,8 +184,8 @@ TEST(SignificanceTable, IsThatOfTheTests) {
   ASSERT_EQ(table.rows.size(), 2u);
   const auto row = RowOf(table, "ours", "other");
   EXPECT_EQ(row.at("pairs"), "12");
-  EXPECT_EQ(row.at("only method right"), "11");
-  EXPECT_EQ(row.at("only other right"), "0");
+  EXPECT_EQ(row.at("only method correct"), "11");
+  EXPECT_EQ(row.at("only other correct"), "0");
   EXPECT_EQ(row.at("success p"), "9.8e-04");  // 2 / 2^11
   EXPECT_EQ(row.at("r difference deg"), "-1.000");
   EXPECT_EQ(row.at("r p"), "4.9e-04");  // 2 / 2^12
