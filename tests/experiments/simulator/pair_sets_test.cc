@@ -242,11 +242,11 @@ TEST_F(WritePairSetsTest, OtherOptionsAndOtherFoldersAreRefused) {
   ASSERT_TRUE(Write(folder_, 1)) << error_;
   sets_[0].seed = 2;
   EXPECT_FALSE(Write(folder_, 1));
-  EXPECT_THAT(error_, HasSubstr("pairs of other options"));
+  EXPECT_THAT(error_, HasSubstr("contains pairs with other options"));
   fs::create_directories(other_);
   std::ofstream(other_ / "thesis.tex") << "text";
   EXPECT_FALSE(Write(other_, 1));
-  EXPECT_THAT(error_, HasSubstr("no folder of pairs"));
+  EXPECT_THAT(error_, HasSubstr("not a folder of pairs"));
   sets_.push_back(sets_[0]);
   EXPECT_FALSE(Write(folder_, 1));
   EXPECT_THAT(error_, HasSubstr("two sets have the name hall"));
