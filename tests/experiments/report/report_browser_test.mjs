@@ -187,10 +187,10 @@ async function lookAtView(browser) {
     pictures.set(picture, `stage ${stage}`);
     legends.push(await browser.evaluate(`document.querySelector('.viewer .legend').textContent`));
   }
-  assert.match(legends[0], /in all/);
+  assert.match(legends[0], /matches in total/);
   assert.match(legends[1], /kept.*rejected.*in the clique/);
   assert.match(legends[2], /weight 0/);
-  assert.match(legends[3], /kept.*agree with the pose/);
+  assert.match(legends[3], /kept.*inliers of the pose/);
   await browser.key(' ');
   assert.ok(!pictures.has(await still()), 'after looks like before');
   assert.equal(await browser.evaluate(`document.querySelector('[data-pose=after]').ariaPressed`), 'true');
