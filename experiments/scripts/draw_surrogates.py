@@ -24,7 +24,7 @@ def read_curves(path):
             float(row["mu"])
             curves.setdefault(row["mu"], []).append((float(row["residual"]), float(row["loss"])))
         except (TypeError, ValueError):
-            raise BadInput(f"{path}: line {line} is not of --protocol=surrogates") from None
+            raise BadInput(f"{path}: line {line} is not from --protocol=surrogates") from None
     if not curves:
         raise BadInput(f"{path}: there are no curves; see --protocol=surrogates of "
                        "quatro_experiment")

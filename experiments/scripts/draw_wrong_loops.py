@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Draws how often pose graphs come out right against the share of wrong loops.
+"""Draws how often pose graphs are correct over the share of outlier loops.
 
     build/bin/quatro_pose_graph --protocol=wrong_loops --output=a.csv
     build/bin/quatro_pose_graph --protocol=wrong_loops --sigma_m=0.1 --sigma_deg=4 --output=b.csv
@@ -45,14 +45,14 @@ def read_curves(paths):
                          max(float(row["median_error_m"]), 1e-9))
                 STYLES[row["loss"]]
             except (KeyError, TypeError, ValueError, ZeroDivisionError):
-                raise BadInput(f"{path}: line {line} is not of --protocol=wrong_loops") from None
+                raise BadInput(f"{path}: line {line} is not from --protocol=wrong_loops") from None
             curves.setdefault(panel, {}).setdefault(row["loss"], []).append(point)
     return curves
 
 
 def main(arguments):
     if len(arguments) < 2:
-        raise BadInput("give TABLE.csv, one or more, and PICTURE.png")
+        raise BadInput("give one or more TABLE.csv, and PICTURE.png")
     *tables, picture = arguments
     check_picture(picture, tables)
     curves = read_curves(tables)
@@ -69,7 +69,7 @@ def main(arguments):
         axes[0, column].set_ylim(0, 103)
         axes[1, column].set_yscale("log")
         axes[1, column].axhline(0.1, color="0.8", zorder=0)
-        axes[1, column].set_xlabel("wrong loops [% of the loops]")
+        axes[1, column].set_xlabel("outlier loops [% of the loops]")
     axes[0, 0].set_ylabel("runs within 0.1 m [%]")
     axes[1, 0].set_ylabel("largest error, median [m]")
     axes[0, 0].legend(loc="center right")

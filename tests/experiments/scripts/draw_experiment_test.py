@@ -130,9 +130,9 @@ class DrawExperimentTest(unittest.TestCase):
         self.write(text_of([row()]) + "a,b\n")
         self.expect_refused("line 3 must have 12 columns")
         self.write(text_of([row(error=None, translation_error_m="1")]))
-        self.expect_refused("line 2 has one error of two")
+        self.expect_refused("line 2 has only one of two errors")
         self.write(text_of(ROWS))
-        self.expect_refused("there is no 'pie'", "--figures=success,pie")
+        self.expect_refused("'pie' is not one of", "--figures=success,pie")
         for limit in ("2", "2/", "2/-1", "1/2/3"):
             self.expect_refused("must be like 2/10", "--limit=" + limit)
         self.expect_refused("results.csv: File exists",

@@ -133,15 +133,15 @@ class InsTableTest(unittest.TestCase):
         self.expect_refused("ins.csv: line 2", "the quaternion has length 1.41421", pairs,
                             f"--ins={ins}")
         ins = self.write("ins.csv", "source,target,qx,qy,qz,qw\nx.bin,t.bin,0,0,0,1\n")
-        self.expect_refused("ins.csv", "has none of the pairs", pairs, f"--ins={ins}")
+        self.expect_refused("ins.csv", "contains none of the pairs", pairs, f"--ins={ins}")
         ins = self.write("ins.csv", "source,target\n")
-        self.expect_refused("ins.csv", "there are no columns", pairs, f"--ins={ins}")
+        self.expect_refused("ins.csv", "has no columns", pairs, f"--ins={ins}")
         self.expect_refused("none.csv", "No such file", pairs, "--ins=none.csv")
         for flag in ("--polish=on", "--ins_mode=fused", "--gravity=1,0,0"):
-            self.expect_refused(flag, "is not for this table", pairs, f"--ins={ins}", "--", flag)
+            self.expect_refused(flag, "cannot be used here", pairs, f"--ins={ins}", "--", flag)
         ins = self.write("ins.csv", "source,target,qx,qy,qz,qw,ins_std_deg\n"
                          f"a.bin,t.bin,{self.quaternion},1\n")
-        self.expect_refused("--ins_std_deg=2", "has a column of it", pairs, f"--ins={ins}", "--",
+        self.expect_refused("--ins_std_deg=2", "has a column for it", pairs, f"--ins={ins}", "--",
                             "--ins_std_deg=2")
         no_pose = self.write("no_pose.csv", "source,target\na.bin,t.bin\n")
         self.expect_refused("no_pose.csv", "has no pose", f"--pairs={no_pose}", f"--ins={ins}")

@@ -181,7 +181,7 @@ class PairScriptsTest(unittest.TestCase):
                 end = time.monotonic() + 60.0
                 while not (self.folder / "calls").exists() and time.monotonic() < end:
                     time.sleep(0.01)
-                self.expect_refused("out.csv.part: another process works here", "run_pairs.py",
+                self.expect_refused("out.csv.part: another process is using this file", "run_pairs.py",
                                     *args)
             finally:
                 self.write("go", "")
@@ -224,10 +224,10 @@ class PairScriptsTest(unittest.TestCase):
 
     def test_only_methods_that_there_are_name_files(self):
         for methods in ("../x", "whole,", "other"):
-            self.expect_refused("there are whole,half", "compare_methods.py",
+            self.expect_refused("is not one of whole,half", "compare_methods.py",
                                 f"--program={self.program}", f"--pairs={self.pairs}",
                                 f"--methods={methods}", "--output=out")
-        self.expect_refused("does not tell its --list_methods", "compare_methods.py",
+        self.expect_refused("did not list its methods", "compare_methods.py",
                             "--program=/bin/false", f"--pairs={self.pairs}", "--methods=whole")
         self.assertFalse((self.folder / "calls").exists())
         self.assertFalse((self.folder / "out").exists())
@@ -243,9 +243,9 @@ class PairScriptsTest(unittest.TestCase):
         lines = good.splitlines(keepends=True)
         for text, problem in (("", "there is no column set"),
                               ("set,source\none,a.bin\n", "there is no column target"),
-                              ("".join(lines[:-1]), "does not hold the results of the pairs"),
-                              ("".join(lines[:2] + lines[1:3]), "does not hold the results"),
-                              (good.replace("0.0000", "x"), "does not hold the results"),
+                              ("".join(lines[:-1]), "does not contain the results of the pairs"),
+                              ("".join(lines[:2] + lines[1:3]), "does not contain the results"),
+                              (good.replace("0.0000", "x"), "does not contain the results"),
                               (good.replace("registered,", "\0,"), "whole.csv: ")):
             path.write_text(text)
             self.expect_refused(problem, "compare_methods.py", *args)
@@ -300,9 +300,9 @@ class PairScriptsTest(unittest.TestCase):
         good = "a.bin,t.bin,1,0,0,0,0,1,0,0,0,0,1,0"
         for text, problem in (
                 ("", "there are no pairs"),
-                (f"{good}\n\n{good}\n", "line 3: the pair a.bin,t.bin was there before"),
-                ("t.bin,a.bin" + good[11:], "line 1: no pair t.bin,a.bin is in the list"),
-                ("0" + good[11:], "line 1: no pair 0,1 is in the list"),
+                (f"{good}\n\n{good}\n", "line 3: the pair a.bin,t.bin is listed twice"),
+                ("t.bin,a.bin" + good[11:], "line 1: pair t.bin,a.bin is not in the list"),
+                ("0" + good[11:], "line 1: pair 0,1 is not in the list"),
                 (good + ",0", "line 1 has 13 numbers after source and target, must have 12 or 16"),
                 ("a.bin,t.bin", "line 1 has 0 numbers"),
                 (good[:-1] + "nan", "line 1 number 12: 'nan' is not finite"),
