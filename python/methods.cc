@@ -16,7 +16,7 @@ bool IsValid(const EstimatorOptions& options, std::string* error) {
   return (options.*kOptions).IsValid(error);
 }
 
-// `kSolve` takes matched points and the options, and gives a PoseSummary.
+// `kSolve` maps matched points and the options to a PoseSummary.
 template <auto kOptions, auto kSolve>
 PoseSolver Make(const EstimatorOptions& options) {
   return [own = options.*kOptions](const PointsRef& source,
@@ -72,7 +72,7 @@ std::vector<Method> MakeMethods() {
           MakeMethod<&Options::fgr, SolveFgr>(
               "fgr", "FGR: SE(3) by a line process with decreasing mu", false),
           MakeMethod<&Options::ransac, SolveRansacWithoutNormals>(
-              "ransac", "RANSAC with local optimisation", false)};
+              "ransac", "RANSAC with local optimization", false)};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The estimators of the library by name, each with the options that it takes:
-// one that it has no use for is an error, not ignored.
+// The estimators of the library by name, each with its own options. An option
+// that the estimator does not use is an error and not ignored.
 
 #ifndef QUATRO_PYTHON_METHODS_H_
 #define QUATRO_PYTHON_METHODS_H_
@@ -24,14 +24,14 @@ struct EstimatorOptions {
   FgrOptions fgr;
   RansacOptions ransac;
 
-  // Noise bound, seed and threads of `quatro` for the others, too.
+  // Copies noise bound, seed and threads of `quatro` to the others.
   void ShareCommon();
 };
 
 struct Method {
   std::string name;
   std::string text;
-  bool takes_ins;  // The others find roll and pitch by themselves.
+  bool takes_ins;  // The others estimate roll and pitch themselves.
   OptionList (*options)(EstimatorOptions* options);
   bool (*is_valid)(const EstimatorOptions& options, std::string* error);
   PoseSolver (*make)(const EstimatorOptions& options);
@@ -39,7 +39,7 @@ struct Method {
 
 const std::vector<Method>& Methods();
 
-// Throws ValueError for a name that is not known.
+// Throws ValueError for an unknown name.
 const Method& FindMethod(const std::string& name);
 
 }  // namespace quatro

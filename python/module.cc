@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The Python module. What the library refuses raises ValueError with its text;
-// while it works, other Python threads run.
+// The Python module. Input that the library rejects raises ValueError with the
+// library's text. Other Python threads run during the computation.
 
 #include <pybind11/pybind11.h>
 #include <quatro/version.h>
@@ -27,15 +27,15 @@ namespace {
 
 namespace py = pybind11;
 
-// An attitude without a mode would be ignored, and a mode without one is told
-// nothing.
+// Rejects an attitude without a mode, which would be ignored, and a mode
+// without attitudes.
 void CheckIns(const py::dict& options, InsMode mode) {
   for (const char* name : {"source_rpy", "target_rpy"}) {
     if (options.contains(name) == (mode != InsMode::kNone)) continue;
     throw py::value_error(std::string(name) +
                           (mode == InsMode::kNone
                                ? " is given, but ins_mode is none"
-                               : " is missing, ins_mode needs it"));
+                               : " is missing, but ins_mode needs it"));
   }
 }
 
@@ -43,25 +43,24 @@ void Append(OptionList more, OptionList* list) {
   list->insert(list->end(), more.begin(), more.end());
 }
 
-// What solve() and register() are given beside points.
+// The input of solve() and register() except for points.
 struct Given {
   EstimatorOptions estimator;
   RegistrationOptions registration;
 
-  // Those of matched points, and with clouds the front end's.
+  // The options for matched points and, with clouds, those of the front end.
   OptionList Options(const Method& method, bool has_clouds) {
     QuatroOptions& common = estimator.quatro;
     OptionList list = {
         MakeOption("noise_bound",
-                   "[m], > 0, how far a right match may be off.",
+                   "[m], > 0, largest error of an inlier.",
                    &common.noise_bound),
-        MakeOption(
-            "seed", ">= 0, of all that is drawn at random.", &common.seed),
+        MakeOption("seed", ">= 0, random seed.", &common.seed),
         MakeOption("num_threads",
-                   "0: one per core. Never changes the answer.",
+                   "0: one per core. Does not affect the result.",
                    &common.num_threads),
         MakeOption("min_probability",
-                   "In [0, 1], of a registered answer.",
+                   "In [0, 1], of a registered pose.",
                    &registration.verdict.min_probability)};
     if (has_clouds) {
       Append(OptionsOf(&registration.front_end), &list);
@@ -158,10 +157,10 @@ Solution SolveMatches(const py::object& source_points,
   const auto source = source_argument.View();
   const auto target = target_argument.View();
   if (source.cols() != target.cols()) {
-    throw py::value_error(
-        "source_points has " + std::to_string(source.cols()) +
-        " rows and target_points " + std::to_string(target.cols()) +
-        ", row i of one must be matched with row i of the other");
+    throw py::value_error("source_points has " + std::to_string(source.cols()) +
+                          " rows and target_points " +
+                          std::to_string(target.cols()) +
+                          ", but row i of one must match row i of the other");
   }
   Given given;
   given.Set(FindPreset(preset, nullptr));
@@ -199,20 +198,22 @@ Solution SolveMatches(const py::object& source_points,
   return answer;
 }
 
-// What align() is given beside clouds; each method takes what it has.
+// The input of align() except for clouds; each method reads its own options.
 struct GivenAlignment {
   VgicpOptions vgicp;
 
   OptionList Options(const std::string& method) {
     OptionList list = OptionsOf(&vgicp.alignment);
     list.push_back(MakeOption("num_threads",
-                              "0: one per core. Never changes the answer.",
+                              "0: one per core. Does not affect the result.",
                               &vgicp.alignment.num_threads));
     if (method == "icp") return list;
-    list.push_back(MakeOption(
-        "epsilon", "In (0, 1), variance across surfaces.", &vgicp.epsilon));
-    list.push_back(MakeOption(
-        "num_neighbors", "That normals are taken from.", &vgicp.num_neighbors));
+    list.push_back(MakeOption("epsilon",
+                              "In (0, 1), variance perpendicular to surfaces.",
+                              &vgicp.epsilon));
+    list.push_back(MakeOption("num_neighbors",
+                              "Number of neighbors for normals.",
+                              &vgicp.num_neighbors));
     if (method == "gicp") return list;
     list.push_back(MakeOption("voxel_size", "[m], > 0.", &vgicp.voxel_size));
     return list;
@@ -294,7 +295,7 @@ py::dict MethodDict() {
   return methods;
 }
 
-// Of every method, or of one.
+// The options of every method.
 std::string DescribeMethods(bool has_clouds) {
   std::string text;
   for (const Method& method : Methods()) {
@@ -309,54 +310,54 @@ constexpr char kRegister[] =
     R"(register(source, target, preset="kitti", *, method="quatro", **options)
 --
 
-Finds the pose between two scans of one place, far apart or not.
+Estimates the pose between two scans of the same place, far apart or not.
 
 source, target: (N, 3) arrays of points [m] or Open3D point clouds; x ahead, z
   up, the sensor at the origin. Points that are not finite are left out.
 preset: kitti (64 beams outdoors), paper, kitti_paper or reference (as
   published), indoor (16 beams), or auto (from the clouds).
-method: how to solve, a key of quatro.methods().
+method: the estimator, a key of quatro.methods().
 
 Returns a Registration; target_from_source moves points of the source onto the
-target, and is_registered says if it can be relied on. Raises ValueError for
-points and values that the library refuses, with its text, and TypeError for
-options that the method does not take. Other Python threads run meanwhile: do
-not change the arrays.
+target, and is_registered says whether the pose is reliable. Raises ValueError,
+with the library's text, for points and values that the library rejects, and
+TypeError for options that the method does not have. Other Python threads run
+meanwhile: do not change the arrays.
 
-Options, all else by the preset:
+Options; the preset sets all others:
 )";
 
 constexpr char kSolve[] =
     R"(solve(source_points, target_points, method="quatro", preset="kitti", **options)
 --
 
-Finds the pose between matched points, most of them wrong.
+Estimates the pose between matched points that are mostly outliers.
 
-source_points, target_points: (N, 3) arrays [m], row i of one matched with row i
-  of the other. Float64 in rows is read as it lies, all else is copied.
-method: how to solve, a key of quatro.methods().
-preset: as of register(), but for auto.
+source_points, target_points: (N, 3) arrays [m]; row i of one matches row i of
+  the other. Row-major float64 is used in place, everything else is copied.
+method: the estimator, a key of quatro.methods().
+preset: as in register(), except auto.
 
-Returns a Solution. Raises ValueError and TypeError as register() does, and other
-threads run as there.
+Returns a Solution. Raises ValueError and TypeError like register(). Other Python
+threads run meanwhile.
 
-Options, all else by the preset:
+Options; the preset sets all others:
 )";
 
 constexpr char kAlign[] =
     R"(align(source, target, method="gicp", initial_target_from_source=None, **options)
 --
 
-Local alignment, from a pose that is nearly right.
+Local alignment, from a pose that is nearly correct.
 
 source, target: (N, 3) arrays of points [m] or Open3D point clouds, all finite.
-method: icp (point to point), gicp (plane to plane) or vgicp (plane to voxels').
-initial_target_from_source: (4, 4), or None for no motion.
+method: icp (point to point), gicp (plane to plane) or vgicp (plane to voxels).
+initial_target_from_source: (4, 4), or None for the identity.
 
-Returns an Alignment. Raises ValueError and TypeError as register() does, and other
-threads run as there.
+Returns an Alignment. Raises ValueError and TypeError like register(). Other Python
+threads run meanwhile.
 
-Options (epsilon and num_neighbors not of icp, voxel_size of vgicp alone):
+Options (epsilon and num_neighbors not for icp, voxel_size only for vgicp):
 )";
 
 void BindFunctions(py::module_* module) {
@@ -388,21 +389,22 @@ void BindFunctions(py::module_* module) {
               py::arg("method") = "gicp",
               py::arg("initial_target_from_source") = py::none(),
               align_doc.c_str());
-  module->def("read_cloud",
-              &ReadPoints,
-              py::arg("path"),
-              "read_cloud(path)\n--\n\n"
-              "(N, 3) float64 of a .bin (KITTI), .ply or .pcd file [m]; points "
-              "that are\nnot finite are left out. Raises ValueError with what "
-              "is wrong with the file.");
+  module->def(
+      "read_cloud",
+      &ReadPoints,
+      py::arg("path"),
+      "read_cloud(path)\n--\n\n"
+      "(N, 3) float64 from a .bin (KITTI), .ply or .pcd file [m]; points "
+      "that are\nnot finite are left out. Raises ValueError if the file "
+      "is invalid.");
   module->def("methods",
               &MethodDict,
               "methods()\n--\n\n"
-              "dict: estimators from matched points, and what each does.");
+              "dict: estimators for matched points, and their descriptions.");
   module->def("presets",
               &PresetTuple,
               "presets()\n--\n\n"
-              "tuple of str: sets of options that belong together.");
+              "tuple of str: the names of the presets.");
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ Option IntegerOption(std::string name, std::string text, Integer* field) {
 template <typename Enum>
 using Names = std::initializer_list<std::pair<const char*, Enum>>;
 
-// By name; the names are appended to the text.
+// An option with named values; the names are appended to the text.
 template <typename Enum>
 Option EnumOption(std::string name,
                   const std::string& text,
@@ -71,7 +71,7 @@ Option EnumOption(std::string name,
 
 Option PruningOption(Pruning* field) {
   return EnumOption("pruning",
-                    "How matches that contradict each other are left out",
+                    "How inconsistent matches are removed",
                     {{"clique_heuristic", Pruning::kCliqueHeuristic},
                      {"exact_clique", Pruning::kExactClique},
                      {"max_core", Pruning::kMaxCore},
@@ -81,7 +81,7 @@ Option PruningOption(Pruning* field) {
 
 Option TimLayoutOption(TimLayout* field) {
   return EnumOption("tim_layout",
-                    "Which differences of matches are taken",
+                    "Which differences of matches (TIMs) are used",
                     {{"ring", TimLayout::kRing},
                      {"complete", TimLayout::kComplete},
                      {"random", TimLayout::kRandom}},
@@ -91,13 +91,14 @@ Option TimLayoutOption(TimLayout* field) {
 void AddGnc(GncOptions* gnc, OptionList* list) {
   list->push_back(EnumOption(
       "gnc_start",
-      "Residuals that GNC starts from",
+      "Residuals that determine the first mu of GNC",
       {{"plain_fit", GncStart::kPlainFit}, {"identity", GncStart::kIdentity}},
       &gnc->start));
-  list->push_back(
-      MakeOption("gnc_mu_step", "> 1, of GNC, per iteration.", &gnc->mu_step));
   list->push_back(MakeOption(
-      "gnc_max_num_iterations", ">= 1, of GNC.", &gnc->max_num_iterations));
+      "gnc_mu_step", "> 1, factor of mu per GNC iteration.", &gnc->mu_step));
+  list->push_back(MakeOption("gnc_max_num_iterations",
+                             ">= 1, limit of GNC iterations.",
+                             &gnc->max_num_iterations));
 }
 
 Option AttitudeOption(std::string name, std::string text, Attitude* field) {
@@ -161,10 +162,10 @@ Option MakeOption(std::string name, std::string text, Eigen::Vector3d* field) {
 OptionList OptionsOfExact(QuatroOptions* o) {
   return {
       MakeOption("tim_bound_factor",
-                 "Of a difference's bound over noise_bound.",
+                 "Bound of a TIM relative to noise_bound.",
                  &o->tim_bound_factor),
       EnumOption("consistency_test",
-                 "What two matches must keep",
+                 "The test of two matches for consistency",
                  {{"length", ConsistencyTest::kLength},
                   {"planar", ConsistencyTest::kPlanar},
                   {"planar_and_height", ConsistencyTest::kPlanarAndHeight}},
@@ -175,19 +176,21 @@ OptionList OptionsOfExact(QuatroOptions* o) {
                  "[s], for exact_clique.",
                  &o->clique_time_limit_seconds),
       TimLayoutOption(&o->tim_layout),
-      MakeOption("num_random_tims", ">= 1, for random.", &o->num_random_tims),
+      MakeOption("num_random_tims",
+                 ">= 1, number of TIMs for random.",
+                 &o->num_random_tims),
       MakeOption("recover_translation",
-                 "The translation again over all matches.",
+                 "Re-estimate the translation over all matches.",
                  &o->recover_translation),
-      MakeOption("polish", "Roll and pitch on the inliers.", &o->polish),
+      MakeOption("polish", "Polish roll and pitch on the inliers.", &o->polish),
       MakeOption("polish_max_tilt",
-                 "[rad], a larger one is refused.",
+                 "[rad], a larger tilt is rejected.",
                  &o->polish_max_tilt),
       MakeOption("polish_max_rotation_std",
-                 "[rad], a less certain one is refused.",
+                 "[rad], a less certain rotation is rejected.",
                  &o->polish_max_rotation_std),
       MakeOption("crosscheck",
-                 "Solve every subproblem by Ceres, too. Slow.",
+                 "Also solve every subproblem by Ceres. Slow.",
                  &o->crosscheck)};
 }
 
@@ -195,27 +198,29 @@ OptionList OptionsOf(QuatroOptions* o) {
   OptionList list = OptionsOfExact(o);
   list.push_back(EnumOption(
       "surrogate",
-      "Of GNC",
+      "Surrogate loss of GNC",
       {{"truncated_least_squares", SurrogateType::kTruncatedLeastSquares},
        {"geman_mcclure", SurrogateType::kGemanMcClure},
        {"welsch", SurrogateType::kWelsch}},
       &o->surrogate));
   AddGnc(&o->gnc, &list);
   list.push_back(MakeOption("replace_missed_optimum",
-                            "Take the exact yaw where GNC's costs more.",
+                            "Use the exact yaw if GNC's has a higher cost.",
                             &o->replace_missed_optimum));
   list.push_back(MakeOption("certificate_tolerance",
-                            "By how much it must cost more.",
+                            "Smallest difference of costs that counts.",
                             &o->certificate_tolerance));
   return list;
 }
 
 OptionList OptionsOf(ArcConsensusOptions* o) {
-  return {MakeOption("max_tilt", "[rad], between the scans.", &o->max_tilt),
-          MakeOption("num_pairs", ">= 1, drawn at random.", &o->num_pairs),
-          MakeOption("min_planar_length",
-                     "[m], shorter pairs are passed over.",
-                     &o->min_planar_length)};
+  return {
+      MakeOption(
+          "max_tilt", "[rad], largest tilt between the scans.", &o->max_tilt),
+      MakeOption("num_pairs", ">= 1, number of random pairs.", &o->num_pairs),
+      MakeOption("min_planar_length",
+                 "[m], shorter pairs are skipped.",
+                 &o->min_planar_length)};
 }
 
 OptionList OptionsOf(TeaserOptions* o) {
@@ -227,13 +232,13 @@ OptionList OptionsOf(TeaserOptions* o) {
   AddGnc(&o->gnc, &list);
   const OptionList rest = {
       MakeOption("estimate_scale",
-                 "Of the target over the source.",
+                 "Also estimate the scale of the target over the source.",
                  &o->estimate_scale),
       MakeOption("num_scale_tims",
-                 ">= 1, differences that the scale is taken from.",
+                 ">= 1, number of TIMs for the scale.",
                  &o->num_scale_tims),
       MakeOption("crosscheck",
-                 "Solve every subproblem by Ceres, too. Slow.",
+                 "Also solve every subproblem by Ceres. Slow.",
                  &o->crosscheck)};
   list.insert(list.end(), rest.begin(), rest.end());
   return list;
@@ -241,13 +246,13 @@ OptionList OptionsOf(TeaserOptions* o) {
 
 OptionList OptionsOf(FgrOptions* o) {
   return {MakeOption("start_scale",
-                     "Of the first mu's root over the clouds' radius.",
+                     "Root of the first mu relative to the clouds' radius.",
                      &o->start_scale),
-          MakeOption("mu_step", "> 1, by which mu falls.", &o->mu_step),
+          MakeOption("mu_step", "> 1, divisor of mu.", &o->mu_step),
           MakeOption("iterations_per_mu", ">= 1.", &o->iterations_per_mu),
           MakeOption("max_iterations", ">= 1.", &o->max_iterations),
           MakeOption("step_tolerance",
-                     "[rad] and radii, of the last step.",
+                     "[rad] and radii, limit of the last step.",
                      &o->step_tolerance),
           MakeOption("start_at_plain_fit",
                      "Start from least squares over all matches.",
@@ -257,20 +262,20 @@ OptionList OptionsOf(FgrOptions* o) {
 OptionList OptionsOf(RansacOptions* o) {
   return {
       MakeOption(
-          "max_iterations", ">= 1, samples at most.", &o->max_iterations),
+          "max_iterations", ">= 1, limit of samples.", &o->max_iterations),
       MakeOption("confidence",
-                 "In (0, 1], to have drawn a right sample.",
+                 "In (0, 1], of having drawn an outlier-free sample.",
                  &o->confidence),
       MakeOption("local_optimization",
                  "Refit every new best pose.",
                  &o->local_optimization),
       EnumOption("sample",
-                 "What a pose is made from",
+                 "The sample for a pose",
                  {{"three_points", MinimalSample::kThreePoints},
                   {"two_points", MinimalSample::kTwoPoints}},
                  &o->minimal.sample),
       EnumOption("edge_test",
-                 "What the edges of a sample must keep",
+                 "The test of a sample's edges",
                  {{"none", EdgeTest::kNone},
                   {"bound", EdgeTest::kBound},
                   {"ratio", EdgeTest::kRatio}},
@@ -282,58 +287,63 @@ OptionList OptionsOf(RansacOptions* o) {
 }
 
 OptionList OptionsOf(InsOptions* o) {
-  return {
-      EnumOption("ins_mode",
-                 "What is taken from an INS",
-                 {{"none", InsMode::kNone},
-                  {"relative", InsMode::kRelative},
-                  {"leveled", InsMode::kLeveled},
-                  {"fused", InsMode::kFused}},
-                 &o->mode),
-      AttitudeOption("source_rpy",
-                     "[rad], the INS' roll, pitch and yaw of the source; x "
-                     "ahead, z up.",
-                     &o->source_attitude),
-      AttitudeOption(
-          "target_rpy", "[rad], the same of the target.", &o->target_attitude),
-      MakeOption("attitude_std",
-                 "[rad], of each roll and pitch, for fused.",
-                 &o->attitude_std),
-      MakeOption("match_std",
-                 "[m], of a right match on each axis, for fused; 0: a "
-                 "third of noise_bound.",
-                 &o->match_std),
-      MakeOption("up", "Unit vector, what is up in a level cloud.", &o->up)};
+  return {EnumOption("ins_mode",
+                     "How an INS is used",
+                     {{"none", InsMode::kNone},
+                      {"relative", InsMode::kRelative},
+                      {"leveled", InsMode::kLeveled},
+                      {"fused", InsMode::kFused}},
+                     &o->mode),
+          AttitudeOption("source_rpy",
+                         "[rad], the INS' roll, pitch and yaw of the source; x "
+                         "ahead, z up.",
+                         &o->source_attitude),
+          AttitudeOption("target_rpy",
+                         "[rad], the INS' roll, pitch and yaw of the target.",
+                         &o->target_attitude),
+          MakeOption("attitude_std",
+                     "[rad], standard deviation of roll and pitch, for fused.",
+                     &o->attitude_std),
+          MakeOption(
+              "match_std",
+              "[m], standard deviation of an inlier per axis, for fused; 0: a "
+              "third of noise_bound.",
+              &o->match_std),
+          MakeOption(
+              "up", "Unit vector, the up direction of a level cloud.", &o->up)};
 }
 
 OptionList OptionsOf(FrontEndOptions* o) {
-  return {
-      MakeOption("voxel_size", "[m], of the sampling.", &o->voxel_size),
-      MakeOption("normal_radius", "[m], of the normals.", &o->normal_radius),
-      MakeOption("fpfh_radius",
-                 "[m], of the descriptors, normal_radius to 100 voxel_size.",
-                 &o->fpfh_radius),
-      MakeOption("tuple_test",
-                 "Leave out matches that keep no triangle.",
-                 &o->tuple_test),
-      MakeOption("tuple_scale",
-                 "In (0, 1), how alike its edges must be.",
-                 &o->tuple.scale)};
+  return {MakeOption(
+              "voxel_size", "[m], voxels of the downsampling.", &o->voxel_size),
+          MakeOption("normal_radius",
+                     "[m], neighborhood of the normals.",
+                     &o->normal_radius),
+          MakeOption("fpfh_radius",
+                     "[m], neighborhood of the descriptors; normal_radius to "
+                     "100 voxel_size.",
+                     &o->fpfh_radius),
+          MakeOption("tuple_test",
+                     "Remove matches that are in no consistent triangle.",
+                     &o->tuple_test),
+          MakeOption("tuple_scale",
+                     "In (0, 1), similarity of its edges.",
+                     &o->tuple.scale)};
 }
 
 OptionList OptionsOf(RefinementOptions* o) {
   return {EnumOption("refine",
-                     "Local registration from the pose found",
+                     "Local registration that refines the pose",
                      {{"none", RefinementMethod::kNone},
                       {"icp", RefinementMethod::kIcp},
                       {"gicp", RefinementMethod::kGicp},
                       {"vgicp", RefinementMethod::kVgicp}},
                      &o->method),
           MakeOption("refine_max_translation",
-                     "[m], a larger step away is refused.",
+                     "[m], a larger translation is rejected.",
                      &o->max_translation),
           MakeOption("refine_max_rotation",
-                     "[rad], a larger one is refused.",
+                     "[rad], a larger rotation is rejected.",
                      &o->max_rotation)};
 }
 
@@ -342,24 +352,24 @@ OptionList OptionsOf(LocalAlignmentOptions* o) {
                      "[m], > 0.",
                      &o->max_correspondence_distance),
           EnumOption("kernel",
-                     "Of each error",
+                     "Robust kernel of each error",
                      {{"none", RobustKernelType::kNone},
                       {"huber", RobustKernelType::kHuber},
                       {"cauchy", RobustKernelType::kCauchy},
                       {"geman_mcclure", RobustKernelType::kGemanMcClure}},
                      &o->kernel.type),
           MakeOption("kernel_width",
-                     "[m] of icp; see solvers/local/gicp.h, vgicp.h.",
+                     "[m] for icp; see solvers/local/gicp.h, vgicp.h.",
                      &o->kernel.width),
           MakeOption("translation_tolerance",
-                     "[m], of the last step.",
+                     "[m], limit of the last step.",
                      &o->translation_tolerance),
           MakeOption("rotation_tolerance",
-                     "[rad], of the last step.",
+                     "[rad], limit of the last step.",
                      &o->rotation_tolerance),
           MakeOption("max_num_iterations", ">= 1.", &o->max_num_iterations),
           MakeOption("min_conditioning",
-                     "In [0, 1), below it the pose is not held.",
+                     "In [0, 1), below it the pose is degenerate.",
                      &o->min_conditioning)};
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Options by name, as Python gives them: each has a line that says what it is,
-// in which unit, and the field that it sets. Whether a value is in range is the
-// library's to say.
+// Options by name, as given in Python. Each has a line of text with its unit
+// and meaning, and the field that it sets. The library checks whether a value
+// is in range.
 
 #ifndef QUATRO_PYTHON_OPTIONS_H_
 #define QUATRO_PYTHON_OPTIONS_H_
@@ -33,8 +33,9 @@ struct Option {
 
 using OptionList = std::vector<Option>;
 
-// What sets a field. Throws TypeError, with the option's name, for a value of
-// another type, and ValueError for an integer that the field cannot hold.
+// Creates an option that sets a field. Throws TypeError, with the option's
+// name, for a value of another type, and ValueError for an integer that does
+// not fit into the field.
 Option MakeOption(std::string name, std::string text, double* field);
 Option MakeOption(std::string name, std::string text, bool* field);
 Option MakeOption(std::string name, std::string text, int* field);
@@ -42,8 +43,8 @@ Option MakeOption(std::string name, std::string text, std::int64_t* field);
 Option MakeOption(std::string name, std::string text, std::uint64_t* field);
 Option MakeOption(std::string name, std::string text, Eigen::Vector3d* field);
 
-// The fields of each, which must outlive the list.
-// Those of GNC are not among those of the exact yaw.
+// The options of each struct, which must outlive the list. OptionsOfExact()
+// excludes the options of GNC.
 OptionList OptionsOf(QuatroOptions* options);
 OptionList OptionsOfExact(QuatroOptions* options);
 OptionList OptionsOf(ArcConsensusOptions* options);
@@ -55,13 +56,13 @@ OptionList OptionsOf(FrontEndOptions* options);
 OptionList OptionsOf(RefinementOptions* options);
 OptionList OptionsOf(LocalAlignmentOptions* options);
 
-// Sets all that are given. Throws TypeError for a name that is not in the list;
-// `function` is what was called.
+// Sets all given options. Throws TypeError for a name that is not in the list;
+// `function` is the name of the called function.
 void Apply(const pybind11::dict& given,
            const OptionList& options,
            const std::string& function);
 
-// One paragraph an option, for docstrings.
+// One paragraph per option, for docstrings.
 std::string Describe(const OptionList& options);
 
 }  // namespace quatro

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What the functions of the module return, as Python classes.
+// The Python classes that the functions of the module return.
 
 #ifndef QUATRO_PYTHON_SUMMARIES_H_
 #define QUATRO_PYTHON_SUMMARIES_H_
@@ -16,7 +16,7 @@
 
 namespace quatro {
 
-// Of matched points.
+// The result for matched points.
 struct Solution {
   std::string method;
   PoseSummary solution;
@@ -24,7 +24,7 @@ struct Solution {
   double total_seconds = 0.0;
 };
 
-// Of clouds.
+// The result for clouds.
 struct Registration {
   std::string method;
   RegistrationSummary summary;
@@ -32,7 +32,7 @@ struct Registration {
   Eigen::Index num_target_dropped = 0;
 };
 
-// Of local alignment.
+// The result of local alignment.
 struct Alignment {
   std::string method;
   AlignmentSummary summary;

@@ -9,7 +9,7 @@
 Without --output it opens a window. Works cell by cell in a notebook, too.
 """
 
-# %% What to register
+# %% Input
 import argparse
 import os
 import sys
