@@ -147,7 +147,7 @@ def check_methods(methods, program):
         listed = subprocess.run([program, "--list_methods"], stdin=subprocess.DEVNULL,
                                 capture_output=True, text=True, check=True).stdout
     except (OSError, UnicodeDecodeError, subprocess.CalledProcessError):
-        raise BadInput(f"{program}: did not list its methods (--list_methods);  "
+        raise BadInput(f"{program}: did not list its methods (--list_methods); "
                        "is it quatro_register?") from None
     names = [line.split()[0] for line in listed.splitlines() if line.strip()]
     for method in methods:
