@@ -76,7 +76,7 @@ std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
 }
 
 constexpr char kUsage[] =
-    "finds the pose between matched points, most of them wrong.\n"
+    "finds the pose between matched points, mostly outliers.\n"
     "\n"
     "  quatro_solve --correspondences=matches.csv --noise_bound=0.3\n"
     "\n"

@@ -62,7 +62,7 @@ PairResult Parsed(const std::string& line) {
   return result.value_or(PairResult{});
 }
 
-// Bit for bit.
+// Equality bit for bit.
 void ExpectSame(const PairResult& a, const PairResult& b) {
   EXPECT_EQ(a.pair, b.pair);
   EXPECT_EQ(a.set, b.set);
@@ -105,7 +105,7 @@ TEST(PairError, IsByHand) {
   EXPECT_DOUBLE_EQ(error.translation, 5.0);
 }
 
-// A tilt is no error of yaw.
+// A tilt does not change the yaw error.
 TEST(PairError, OfATiltHasNoYaw) {
   const Eigen::Matrix3d tilt =
       Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -135,7 +135,7 @@ TEST(PairError, StaysInRange) {
   }
 }
 
-// Both scans' poses given in another frame of the target.
+// Both scans' poses in another frame of the target.
 TEST(PairError, IsTheSameUnderACommonMotionOfTheTarget) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Rigid3 truth = RandomPose(seed), estimate = RandomPose(seed + 50);
@@ -153,7 +153,8 @@ TEST(PairError, IsTheSameUnderACommonMotionOfTheTarget) {
   }
 }
 
-// Of the source, the rotation's error alone: the origin is elsewhere then.
+// In another frame of the source only the rotation error stays, because the
+// origin changes.
 TEST(PairError, OfRotationIsTheSameUnderAMotionOfTheSourceAndASwap) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Rigid3 truth = RandomPose(seed), estimate = RandomPose(seed + 50);
@@ -211,7 +212,7 @@ TEST(PairResultCsv, AnglesAreInDegreesAndTimesInMilliseconds) {
   EXPECT_THAT(line, HasSubstr(",voxels=1.5;features=60"));
 }
 
-// A good line with cell `column` replaced.
+// A valid line with the cell of `column` replaced.
 std::string ErrorWith(const std::string& column, const std::string& text) {
   const auto names = SplitCsvLine(ResultCsvHeader());
   auto cells = SplitCsvLine(FormatResultCsv(Example(3)));
@@ -228,7 +229,7 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
   EXPECT_EQ(ErrorWith("method", ""), "column method is empty");
   EXPECT_EQ(ErrorWith("status", "fine"),
             "column status is not a status: 'fine'");
-  // Nothing that a terminal would act upon.
+  // No control characters for the terminal.
   for (const char* const column : {"status", "m22", "matches", "stages_ms"}) {
     EXPECT_THAT(ErrorWith(column, "1\x1b[2J\x7f"), HasSubstr("'1?[2J?'"));
   }

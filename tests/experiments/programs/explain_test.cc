@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// What quatro_solve reports of these matches.
+// The report of quatro_solve for these matches.
 Json Report(const PointsRef& source, const PointsRef& target) {
   const QuatroOptions options;
   const QuatroSummary summary = SolveQuatro(source, target, options);
@@ -63,7 +63,7 @@ TEST(Explain, TellsTheNumbersOfTheReport) {
       HasSubstr("polish: " + report["notes"]["polish"].get<std::string>()));
   EXPECT_THAT(text, HasSubstr("certificate: the yaw is the global optimum"));
   EXPECT_THAT(text, HasSubstr(report["reason"]));
-  // No clouds, no word of them; nothing to change.
+  // Without clouds they are not mentioned, and there is nothing to change.
   EXPECT_THAT(text, Not(HasSubstr("voxels:")));
   EXPECT_THAT(text, Not(HasSubstr("geometry:")));
   EXPECT_THAT(text, Not(HasSubstr("what to do")));

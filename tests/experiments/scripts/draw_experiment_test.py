@@ -103,7 +103,7 @@ class DrawExperimentTest(unittest.TestCase):
         tilts.write_text("set,source,target,yaw_deg,rollpitch_deg\n00,7,3,-170,1\n",
                          encoding="utf-8")
         self.assertEqual([file.name for file in self.draw()], ["tilt.pdf", "tilt.png"])
-        self.write(text_of(ROWS))  # Results come first.
+        self.write(text_of(ROWS))  # results.csv takes precedence.
         self.assertIn("recall.pdf", [file.name for file in self.draw()])
 
     def test_bad_input_is_one_line_and_exit_code_2(self):

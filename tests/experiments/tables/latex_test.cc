@@ -114,7 +114,7 @@ TEST(FormatLatex, NothingQuotedHasNoNote) {
   EXPECT_THAT(FormatLatex(file, {}), HasSubstr("another program"));
 }
 
-// Every line of the body has as many cells as the paper's Table II has.
+// Every line of the body has as many cells as the paper's Table II.
 TEST(FormatTableTwoLatex, IsThePapersTable) {
   DriftEntry ours;
   ours.method = "quatro_c2f";
@@ -142,7 +142,7 @@ TEST(FormatTableTwoLatex, IsThePapersTable) {
   EXPECT_EQ(num_rows, 1 + 14 + 1);
 }
 
-// Narrow, wide, quoted and empty, each in both classes of a page.
+// Narrow, wide, quoted and empty tables, in both document classes.
 TEST(FormatLatex, PdflatexTakesItWithoutAnOverfullBox) {
   if (std::system("pdflatex --version >/dev/null 2>&1") != 0) {
     GTEST_SKIP() << "needs pdflatex with booktabs (texlive-latex-extra)";

@@ -25,8 +25,8 @@ SphericalImage Image() {
   return image;
 }
 
-// What a sensor sees of a room of 20 x 14 m, with a floor 2 m below it, a
-// ceiling 3 m above and normal noise of `sigma` [m].
+// A scan of a room of 20 x 14 m, with the floor 2 m below the sensor, the
+// ceiling 3 m above it and normal noise of `sigma` [m].
 VertexMap SeeRoom(const Rigid3& room_from_sensor, double sigma) {
   const SphericalImage image = Image();
   const Eigen::Vector3d low(-10.0, -7.0, -2.0), high(10.0, 7.0, 3.0);
