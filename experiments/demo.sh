@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Registers two scans and shows the result; from a clean clone on, it installs
+# Registers two scans and shows the result. On a clean clone it first installs
 # and builds what it needs.
-#   experiments/demo.sh                 two simulated scans, the truth known
+#   experiments/demo.sh                 two simulated scans with a known pose
 #   experiments/demo.sh SOURCE TARGET   two scans of yours
-# Exit code: 0 registered, 1 not vouched for, 2 bad input, 3 no set-up.
-# The results stay in build/demo/.
+# Exit code: 0 registered, 1 not registered, 2 bad input, 3 setup failed. The
+# results stay in build/demo/.
 set -euo pipefail
 
 usage() {
@@ -60,7 +60,7 @@ code=0
 build/bin/quatro_register --source="$source" --target="$target" \
     --json="$out/registration.json" --picture="$out/registration.png" || code=$?
 
-# Reads the JSON, and in the simulated case the true poses.
+# Reads the JSON and, for simulated scans, the true poses.
 if [[ -s $out/registration.json ]]; then
   bash experiments/scripts/with_python.sh numpy - "$out/registration.json" "$simulated" <<'END' || true
 import json
@@ -80,7 +80,7 @@ def rows(line):
 
 
 def true_pose(folder, source, target):
-    """KITTI keeps the poses of the camera; Tr takes the scanner's frame to it."""
+    """KITTI stores the poses of the camera; Tr maps the lidar frame to it."""
     folder = pathlib.Path(folder)
     files = [*folder.rglob('poses*.txt'), *folder.rglob('poses/*.txt')]
     poses = [rows(line) for line in files[0].read_text().splitlines()]

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# Runs every table and figure of the paper; from a clean clone on, it installs
-# and builds what it needs.
+# Reproduces every table and figure of the paper. On a clean clone it first
+# installs and builds what it needs.
 #   experiments/reproduce.sh [--quick] [--output=DIR] [--kitti=DIR] [--naver=DIR]
 #                            [--preset=NAME] [--threads=N]
 #
 #   --quick      few pairs and short drives: less than ten minutes on two cores
-#   --output     build/reproduce by default; the same command goes on with it
-#   --kitti      KITTI odometry, with SemanticKITTI's poses.txt if one has them;
-#                without, simulated drives of the same names
-#   --naver      NAVER LABS' HD_B1; without, a simulated building
+#   --output     build/reproduce by default; the same command resumes a run
+#   --kitti      KITTI odometry, with SemanticKITTI's poses.txt if available;
+#                default: simulated drives of the same names
+#   --naver      NAVER LABS' HD_B1; default: a simulated building
 #
-# DIR gets data/ (what was simulated), a folder for each run of
-# quatro_experiment with its tables and figures, and report.md.
-# Exit code: 0; 2 a wrong flag or bad data; 3 no set-up, or stopped.
+# DIR gets data/ (simulated data), a folder with tables and figures for each run
+# of quatro_experiment, and report.md. Exit code: 0; 2 for an invalid flag or
+# bad data; 3 if the setup failed or the run was interrupted.
 set -euo pipefail
 
 quick=
@@ -52,7 +52,7 @@ quatro_step "building (a few minutes the first time)" \
 
 drives=(00 02 05 06 07 08)
 if [[ $quick ]]; then
-  # Scans are 4 m apart, but for odometry.
+  # Scans are 4 m apart, except for odometry.
   spacing=4 gap=25 per_source=0 pairs_one=8 pairs_three=6 pairs_yaw=3 pairs_timing=4 frames=106
   frames_inside=300 problems=10
   intervals=(1 5)
@@ -113,7 +113,8 @@ loops=(--protocol=loop --data="$drive_data" --preset="$preset" --min_frame_gap="
 run table_one "${loops[@]}" --sequences=00,02,05,06,07,08 --bins=9-12 --max_pairs="$pairs_one" \
     --methods=quatro,quatro_ins,quatro_c2f,teaser,fgr,ransac1k,ransac10k
 draw table_one success,recall
-# The paper's radii and no polish: fewer true matches, and methods differ.
+# With the paper's radii and no polish there are fewer inliers, and methods
+# differ.
 run table_one_paper "${loops[@]}" --preset=paper --sequences=00,02,05,06,07,08 --bins=9-12 \
     --max_pairs="$pairs_one" --methods=quatro,quatro_ins,quatro_c2f,teaser,fgr,ransac1k,ransac10k
 draw table_one_paper success,recall

@@ -25,7 +25,7 @@ py::array RealNumbers(const py::object& given, const char* name) {
   auto array = py::array::ensure(given);
   if (!array) {
     PyErr_Clear();
-    throw py::value_error(std::string(name) + " is no array of numbers");
+    throw py::value_error(std::string(name) + " is not an array of numbers");
   }
   const char kind = array.dtype().kind();
   if (array.size() > 0 && kind != 'f' && kind != 'i' && kind != 'u') {
@@ -111,7 +111,7 @@ Rigid3 PoseArgument(const py::object& given, const char* name) {
       rotation.determinant() > 0.0;
   if (!matrix.allFinite() || !is_rotation ||
       matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
-    throw py::value_error(std::string(name) + " is no rigid motion");
+    throw py::value_error(std::string(name) + " is not a rigid motion");
   }
   return {rotation, matrix.topRightCorner<3, 1>()};
 }

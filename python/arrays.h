@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Points as NumPy has them: N rows of x, y, z in C order lie in memory as the
-// 3xN columns of features/base/types.h, so that neither way needs a copy.
+// Points in NumPy's layout: N rows of x, y, z in C order have the same memory
+// layout as the 3xN columns of features/base/types.h, so no copy is needed in
+// either direction.
 
 #ifndef QUATRO_PYTHON_ARRAYS_H_
 #define QUATRO_PYTHON_ARRAYS_H_
@@ -19,37 +20,38 @@
 
 namespace quatro {
 
-// An (N, 3) array that is given, or a cloud of Open3D's. Held as it is if it is
-// float64 and the three numbers of a point follow each other, in rows any
-// distance apart; else as a copy. Throws ValueError, which names the argument,
-// for any other shape and for what is not real numbers.
+// A given (N, 3) array or an Open3D cloud. It is used without a copy if it is
+// float64 and the three numbers of a point are contiguous, with any distance
+// between rows; otherwise it is copied. Throws ValueError, which names the
+// argument, for any other shape and for values that are not real numbers.
 class PointsArgument {
  public:
   PointsArgument(const pybind11::object& given, const char* name);
 
-  // Valid as long as this is; needs no lock.
+  // Valid during the lifetime of this object; does not need the GIL.
   Eigen::Map<const Points, 0, Eigen::OuterStride<>> View() const;
 
  private:
   pybind11::array_t<double> array_;
 };
 
-// What the readers of files make of such points: those that are not finite are
-// dropped and counted.
+// Makes a cloud as the file readers do: points that are not finite are dropped
+// and counted.
 PointCloud MakeCloud(const PointsArgument& points);
 
-// A pose given as (4, 4), its rotation within 1e-6 of one. Throws ValueError.
+// A pose given as a (4, 4) array, its rotation accurate to 1e-6. Throws
+// ValueError.
 Rigid3 PoseArgument(const pybind11::object& given, const char* name);
 
-// Views, read-only, of what `owner` holds.
+// Read-only views of data that `owner` keeps alive.
 pybind11::array ViewPoints(const Points& points, pybind11::handle owner);
 pybind11::array ViewColumns(const std::vector<Eigen::Index>& columns,
                             pybind11::handle owner);
 
-// An array that holds the points themselves.
+// An array that owns the points.
 pybind11::array TakePoints(Points points);
 
-// Small matrices are copied. None without one.
+// Copies of small matrices; None for nullopt.
 pybind11::array Copy(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 pybind11::object Copy(const std::optional<Rigid3>& pose);
 

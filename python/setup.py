@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """pip install --no-build-isolation ./python
 
-Builds the library and the module by CMake; nothing is downloaded. CMAKE_ARGS
-has further arguments for it. QUATRO_BUILD_FOLDER names a build folder of the
-repository that is configured already and made for this Python.
+Builds the library and the module with CMake; nothing is downloaded. CMAKE_ARGS
+contains further CMake arguments. QUATRO_BUILD_FOLDER names a build folder of the
+repository that is already configured for this Python.
 """
 
 import os
@@ -45,7 +45,7 @@ setup(
     description='Robust global registration of point clouds',
     license='MIT',
     packages=['quatro'],
-    # Without sources: CMake has them.
+    # No sources, because CMake builds them.
     ext_modules=[Extension('quatro._quatro', sources=[])],
     cmdclass={'build_ext': CMakeBuild},
     python_requires='>=3.9',

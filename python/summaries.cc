@@ -57,7 +57,7 @@ std::string Describe(const Rigid3& pose) {
                t.z());
 }
 
-// "Solution(registered, quatro, probability=0.99, yaw=...)"
+// Formats "Solution(registered, quatro, probability=0.99, yaw=...)".
 template <typename Summary>
 std::string Represent(const char* name, const Summary& summary) {
   const PoseSummary& solution = SolutionOf(summary);
@@ -125,7 +125,7 @@ py::object RefinementOf(const RegistrationSummary& summary) {
   return dict;
 }
 
-// All properties by their names, views copied.
+// All properties by name; views are copied.
 py::dict AsDict(const py::object& self) {
   const py::object is_property =
       py::module_::import("builtins").attr("property");
@@ -141,10 +141,10 @@ py::dict AsDict(const py::object& self) {
 }
 
 constexpr const char* kAsDictDoc =
-    "dict: all properties by their names, for a table or another process; "
+    "dict: all properties by name, for a table or another process; "
     "arrays are copies. Can be pickled.";
 
-// What answers from matches and from clouds have in common.
+// Properties that the results for matches and for clouds share.
 template <typename Summary>
 void BindCommon(const char* name, py::class_<Summary>* type) {
   const auto add = [type](const char* field, const char* doc, auto get) {
@@ -161,33 +161,31 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
       [](const Summary& s) {
         return std::string(StatusName(VerdictOf(s).status));
       });
-  add("is_registered",
-      "bool: the answer can be relied on.",
-      [](const Summary& s) { return VerdictOf(s).IsRegistered(); });
+  add("is_registered", "bool: the pose is reliable.", [](const Summary& s) {
+    return VerdictOf(s).IsRegistered();
+  });
   add("reason", "str: why it has this status.", [](const Summary& s) {
     return VerdictOf(s).reason;
   });
   add("probability",
-      "float: that the pose is within 2 m and 10 deg; 0 without one.",
+      "float: that the pose is within 2 m and 10 deg; 0 if there is no pose.",
       [](const Summary& s) { return VerdictOf(s).probability; });
-  add("features",
-      "dict: what the probability was computed from.",
-      [](const Summary& s) {
-        py::dict dict;
-        for (const Feature& feature : VerdictOf(s).features) {
-          dict[py::str(feature.name)] = feature.value;
-        }
-        return dict;
-      });
+  add("features", "dict: the inputs of the probability.", [](const Summary& s) {
+    py::dict dict;
+    for (const Feature& feature : VerdictOf(s).features) {
+      dict[py::str(feature.name)] = feature.value;
+    }
+    return dict;
+  });
   add("message", "str: how the estimator ended.", [](const Summary& s) {
     return SolutionOf(s).message;
   });
   add("target_from_source",
       "(4, 4) float64 or None: moves homogeneous points of the source onto "
-      "the target [m]. May be set without being registered.",
+      "the target [m]. May be set even if it is not registered.",
       [](const Summary& s) { return Copy(SolutionOf(s).target_from_source); });
   add("unpolished_target_from_source",
-      "(4, 4) float64 or None: the pose before it was polished, if it was.",
+      "(4, 4) float64 or None: the pose before polishing, if it was polished.",
       [](const Summary& s) {
         return Copy(SolutionOf(s).unpolished_target_from_source);
       });
@@ -204,10 +202,10 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
       [](const Summary& s) { return SolutionOf(s).scale; });
   add("covariance",
       "(6, 6) float64 or None: of the pose, rotation [rad] then translation "
-      "[m], in the target frame. None where a direction is not held.",
+      "[m], in the target frame. None if a direction is unobservable.",
       [](const Summary& s) { return CovarianceOf(SolutionOf(s)); });
   add("unobservable_directions",
-      "list of str: directions that the data do not hold.",
+      "list of str: directions that the data do not constrain.",
       [](const Summary& s) { return UnobservableOf(SolutionOf(s)); });
   type->def_property_readonly(
       "inliers",
@@ -225,7 +223,7 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
       },
       "(K,) int64: rows of the matches that pruning kept. A view.");
   add("num_matches",
-      "int: matches, copies counted once.",
+      "int: matches; duplicates count once.",
       [](const Summary& s) { return SolutionOf(s).num_matches; });
   add("num_consistent",
       "int: matches that pruning kept.",
@@ -243,10 +241,10 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
       "int: matches within the noise bound of the final pose.",
       [](const Summary& s) { return VerdictOf(s).num_inliers; });
   add("certificate",
-      "dict or None: gnc_cost, optimal_cost and gap of the yaw's problem.",
+      "dict or None: gnc_cost, optimal_cost and gap of the yaw problem.",
       [](const Summary& s) { return CertificateOf(SolutionOf(s)); });
   add("crosscheck",
-      "dict or None: num_subproblems solved by Ceres, too, "
+      "dict or None: num_subproblems also solved by Ceres, "
       "max_rotation_difference [rad], max_translation_difference [m].",
       [](const Summary& s) { return CrosscheckOf(SolutionOf(s)); });
   add("stage_seconds", "dict: time by stage [s].", [](const Summary& s) {
@@ -289,11 +287,11 @@ void BindSummaries(py::module_* module) {
             const auto& r = self.cast<const Registration&>();
             return ViewPoints(r.summary.matched_target, self);
           },
-          "(M, 3) float64: the same of the target [m]. A view.")
+          "(M, 3) float64: voxel means of the target [m]. A view.")
       .def_property_readonly(
           "refinement",
           [](const Registration& r) { return RefinementOf(r.summary); },
-          "dict or None: of refine=..., if it was tried: method, is_accepted, "
+          "dict or None: result of refine=..., if any: method, is_accepted, "
           "message, moved_translation [m], moved_rotation [rad], "
           "unrefined_target_from_source.")
       .def_property_readonly(
@@ -313,10 +311,9 @@ void BindSummaries(py::module_* module) {
                     "int: points of the source that are not finite.")
       .def_readonly("num_target_dropped",
                     &Registration::num_target_dropped,
-                    "int: the same of the target.");
+                    "int: points of the target that are not finite.");
 
-  py::class_<Alignment>(
-      *module, "Alignment", "The pose that local alignment ended with.")
+  py::class_<Alignment>(*module, "Alignment", "The result of local alignment.")
       .def("__repr__",
            [](const Alignment& a) {
              const AlignmentSummary& s = a.summary;
@@ -342,11 +339,11 @@ void BindSummaries(py::module_* module) {
       .def_property_readonly(
           "is_usable",
           [](const Alignment& a) { return a.summary.IsUsable(); },
-          "bool: there is a pose. Whether it is right, nothing here says.")
+          "bool: there is a pose, which is not necessarily correct.")
       .def_property_readonly(
           "message",
           [](const Alignment& a) { return a.summary.message; },
-          "str: why it ended.")
+          "str: why it stopped.")
       .def_property_readonly(
           "target_from_source",
           [](const Alignment& a) { return Copy(a.summary.target_from_source); },
@@ -355,7 +352,7 @@ void BindSummaries(py::module_* module) {
       .def_property_readonly(
           "cost",
           [](const Alignment& a) { return a.summary.cost; },
-          "float: at the end.")
+          "float: final cost.")
       .def_property_readonly(
           "costs",
           [](const Alignment& a) {
@@ -365,19 +362,19 @@ void BindSummaries(py::module_* module) {
             }
             return costs;
           },
-          "list of float: before each step.")
+          "list of float: cost before each step.")
       .def_property_readonly(
           "num_inliers",
           [](const Alignment& a) { return a.summary.num_inliers; },
-          "int: points that correspond.")
+          "int: corresponding points.")
       .def_property_readonly(
           "conditioning",
           [](const Alignment& a) { return a.summary.conditioning; },
-          "float: the Hessian's least eigenvalue over the largest.")
+          "float: the smallest eigenvalue of the Hessian over the largest.")
       .def_property_readonly(
           "hessian",
           [](const Alignment& a) { return Copy(a.summary.hessian); },
-          "(6, 6) float64: of half the cost, rotation [rad] first.")
+          "(6, 6) float64: Hessian of half the cost, rotation [rad] first.")
       .def_property_readonly(
           "stage_seconds",
           [](const Alignment& a) { return Seconds(a.summary.stage_times); },

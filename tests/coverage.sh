@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Share of lines that the tests of a folder and those after it reach, and fails
-# below 90 % in features, solvers or robust. build-coverage/coverage/ gets a page.
+# Measures the share of lines that the tests of each folder and of the later
+# folders reach. Fails below 90 % in features, solvers or robust. Writes a page
+# to build-coverage/coverage/.
 #   tests/coverage.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,7 +10,7 @@ source third_party/setup.sh
 
 bash third_party/install.sh --coverage
 quatro_configure coverage build-coverage
-# Counters of the last run would add to this one's.
+# Counters of the previous run would add up.
 find build-coverage -name '*.gcda' -delete
 mapfile -t targets < <(sed -nE 's/^quatro_test\(((features|solvers|robust)\/[a-z0-9_]+).*/\1_test/p' tests/CMakeLists.txt |
                        tr / _)

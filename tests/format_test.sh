@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fails if a tracked source is not as .clang-format has it; lists those.
-# Versions differ in details: Debian 12's is the one that counts.
+# Lists tracked sources that do not match .clang-format, and fails if there are
+# any. Versions of clang-format differ in details; Debian 12's is the reference.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -19,7 +19,7 @@ for source in "${sources[@]}"; do
   fi
 done
 if ((num_bad > 0)); then
-  echo "format: $num_bad of ${#sources[@]} files; clang-format -i <file> puts it right"
+  echo "format: $num_bad of ${#sources[@]} files; clang-format -i <file> fixes them"
   exit 1
 fi
 echo "format: ${#sources[@]} files checked"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything in build/ and runs the tests.
+# Installs missing packages, builds everything in build/ and runs the tests.
 #   tests/run.sh [ctest arguments], e.g. tests/run.sh -R robust
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

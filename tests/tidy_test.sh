@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Fails if clang-tidy finds something; .clang-tidy says what it looks for.
+# Fails if clang-tidy reports anything; .clang-tidy configures the checks.
 #   tests/tidy_test.sh [source file...]
-# Without files, all sources but the tests'. build-tidy/ gets the compile
-# commands; nothing is built but a header that is made at each build.
+# Without files, checks all sources except the tests. build-tidy/ gets the
+# compile commands; only a generated header is built.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=third_party/setup.sh
@@ -20,7 +20,7 @@ else
   mapfile -t sources <<<"$list"
 fi
 printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(quatro_jobs)" clang-tidy -p build-tidy --quiet 2>/dev/null || {
-  echo "tidy: of ${#sources[@]} files, those above" >&2
+  echo "tidy: issues above, in ${#sources[@]} checked files" >&2
   exit 1
 }
 echo "tidy: ${#sources[@]} files checked"

@@ -1,5 +1,5 @@
-# Every library that quatro is built with. third_party/install.sh installs them;
-# third_party/README.md lists versions and licences.
+# All libraries with which quatro is built. third_party/install.sh installs
+# them; third_party/README.md lists versions and licenses.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Ceres 2.1 REQUIRED)
@@ -14,7 +14,7 @@ if(QUATRO_BUILD_EXPERIMENTS OR QUATRO_BUILD_TESTS)
   if(QUATRO_BUILD_BENCHMARK STREQUAL AUTO)
     find_package(benchmark QUIET)
     if(NOT benchmark_FOUND)
-      message(STATUS "No Google Benchmark: no quatro_benchmark")
+      message(STATUS "Google Benchmark not found: no quatro_benchmark")
     endif()
   elseif(QUATRO_BUILD_BENCHMARK)
     find_package(benchmark REQUIRED)
@@ -24,16 +24,17 @@ if(QUATRO_BUILD_TESTS)
   find_package(GTest REQUIRED)
   find_package(rapidcheck QUIET)
   if(NOT rapidcheck_FOUND)
-    message(STATUS "No RapidCheck: no tests/properties")
+    message(STATUS "RapidCheck not found: no tests/properties")
   endif()
 endif()
 
-# To compare with; never needed.
+# Only for comparison; never required.
 if(QUATRO_WITH_OPEN3D)
-  find_package(Open3D REQUIRED)  # 0.16; it accepts no version but its own.
+  find_package(Open3D REQUIRED)  # 0.16; it accepts only its exact version.
 endif()
 if(QUATRO_WITH_PCL)
-  # By hand: its own configuration brings in VTK, whose targets need MPI.
+  # Found manually, because PCL's own configuration requires VTK, whose targets
+  # need MPI.
   find_path(PCL_INCLUDE_DIR pcl/features/fpfh.h PATH_SUFFIXES pcl-1.13 pcl-1.14 pcl-1.12 REQUIRED)
   set(PCL_FOUND_LIBRARIES "")
   foreach(name IN ITEMS features registration sample_consensus search kdtree common)

@@ -1,7 +1,8 @@
-# What others build against. Headers are included as "robust/estimators/quatro.h", as they
-# include each other, or as <quatro/robust/estimators/quatro.h>, which no file of others
-# can be taken for: so both include/ and include/quatro/ are on the path, and
-# the build folder has the like of the former.
+# The targets that others build against. Headers are included as
+# "robust/estimators/quatro.h", as they include each other, or as
+# <quatro/robust/estimators/quatro.h>, which cannot collide with other projects'
+# files. Therefore both include/ and include/quatro/ are on the path, and the
+# build folder has an equivalent of the former.
 set(QUATRO_EXPORTED features solvers robust)
 
 configure_file(third_party/version.h.in include/quatro/version.h @ONLY)
@@ -16,7 +17,8 @@ endif()
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-# Two parts: quatro_programs with what they need to run, quatro_development.
+# Two components: quatro_programs with the files needed to run, and
+# quatro_development.
 set(QUATRO_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/quatro")
 list(TRANSFORM QUATRO_EXPORTED PREPEND quatro_ OUTPUT_VARIABLE targets)
 install(TARGETS quatro ${targets} EXPORT quatro

@@ -1,25 +1,26 @@
 #!/usr/bin/env bash
-# Installs the packages that building, testing and plotting need, those alone
-# that are missing, with apt on Debian and Ubuntu, and with npm those that HTML
-# reports are bundled with. Never asks.
+# Installs the missing packages for building, testing and plotting, with apt on
+# Debian and Ubuntu, and with npm the packages bundled into HTML reports. Never
+# asks.
 #   third_party/install.sh [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers]
-#     --check     install nothing; list what is missing, exit 1 if anything is
-#     --ci        with what only .ci/run needs
-#     --docs      with what only docs/build.sh needs
-#     --tidy      with what only tests/tidy_test.sh needs
-#     --coverage  with what only tests/coverage.sh needs
-#     --peers     with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
-# Exits 1 if something could not be installed. Elsewhere it lists what to
-# install and exits 0: cmake finds out whether it is there.
+#     --check     install nothing; list missing packages, exit 1 if there are any
+#     --ci        also packages that only .ci/run needs
+#     --docs      also packages that only docs/build.sh needs
+#     --tidy      also packages that only tests/tidy_test.sh needs
+#     --coverage  also packages that only tests/coverage.sh needs
+#     --peers     also packages that only -DQUATRO_WITH_OPEN3D and _PCL need (1 GB)
+# Exits with 1 if something could not be installed. On other systems it lists
+# the packages to install and exits with 0; cmake then finds out whether they
+# are present.
 set -euo pipefail
 
-# third_party/README.md tells what each is for.
+# third_party/README.md explains the purpose of each package.
 packages=(g++ cmake ninja-build make libeigen3-dev libceres-dev
           libgoogle-glog-dev libgflags-dev libnanoflann-dev liblzf-dev
           nlohmann-json3-dev libembree-dev libgtest-dev libgmock-dev
           libbenchmark-dev librapidcheck-dev python3-numpy python3-matplotlib
           pybind11-dev python3-dev python3-pytest python3-pip)
-# Those of others exclude Debian's.
+# Node.js and npm from other sources conflict with Debian's packages.
 command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
 
 docs=(doxygen mkdocs mkdocs-material libjs-mathjax)
@@ -37,8 +38,8 @@ for arg in "$@"; do
   esac
 done
 
-# Into experiments/report/node_modules, as package-lock.json has them. A build
-# without them has no HTML reports, and all else.
+# Installs into experiments/report/node_modules, as pinned by package-lock.json.
+# A build without these packages only lacks HTML reports.
 report="$(dirname "${BASH_SOURCE[0]}")/../experiments/report"
 has_report_packages() {
   cmp -s "$report/package-lock.json" "$report/node_modules/.quatro-lock"
@@ -99,7 +100,7 @@ apt_get() {
       apt-get -q -o DPkg::Lock::Timeout=300 "$@" </dev/null
 }
 if "${as_root[@]}" true 2>/dev/null; then
-  # Where the index cannot be updated, the one at hand may do.
+  # If the index cannot be updated, the existing one may suffice.
   apt_get update || true
   apt_get install -y --no-install-recommends "${missing[@]}" || true
 fi

@@ -1,5 +1,5 @@
-# Debian packages, by `cpack` in the build folder: quatro (programs) and
-# libquatro-dev. tests/install/debian_root.sh installs them on a bare system.
+# Debian packages, built by `cpack` in the build folder: quatro (programs) and
+# libquatro-dev. tests/install/debian_root.sh installs them on a minimal system.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The quatro authors")
 set(CPACK_PACKAGE_CONTACT "The quatro authors")
@@ -8,13 +8,13 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# The libraries of a shared build are in the package itself.
+# The package includes the libraries of a shared build.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
     "${PROJECT_BINARY_DIR}/features" "${PROJECT_BINARY_DIR}/solvers" "${PROJECT_BINARY_DIR}/robust")
 
 set(CPACK_DEBIAN_QUATRO_PROGRAMS_PACKAGE_NAME quatro)
 set(CPACK_DEBIAN_QUATRO_PROGRAMS_PACKAGE_SECTION science)
-# For --picture.
+# Needed by --picture.
 set(CPACK_DEBIAN_QUATRO_PROGRAMS_PACKAGE_RECOMMENDS "python3-matplotlib, python3-numpy")
 set(CPACK_COMPONENT_QUATRO_PROGRAMS_DESCRIPTION
     "Robust global registration of point clouds, programs")

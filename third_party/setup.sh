@@ -1,14 +1,16 @@
 # shellcheck shell=bash
-# From a clean clone to programs. Sourced by tests/run.sh, .ci/run,
-# experiments/demo.sh and reproduce.sh, with the root of the repository as current directory.
+# Setup from a clean clone to programs. Sourced by tests/run.sh, .ci/run,
+# experiments/demo.sh and reproduce.sh, with the root of the repository as the
+# current directory.
 
-# What cannot be installed may be there by other means: cmake finds out.
+# Packages that cannot be installed may be present by other means; cmake finds
+# out.
 quatro_install() {
   bash third_party/install.sh || true
 }
 
 #   quatro_configure <preset> <build folder> [<option of cmake>...]
-# A build folder keeps the generator it has.
+# An existing build folder keeps its generator.
 quatro_configure() {
   local generator=()
   if [[ ! -e $2/CMakeCache.txt ]] && command -v ninja >/dev/null; then
@@ -17,7 +19,7 @@ quatro_configure() {
   cmake --preset "$1" "${generator[@]}" "${@:3}"
 }
 
-# One job a core, as far as there are 2 GB of memory for each.
+# One job per core, limited to one per 2 GB of memory.
 quatro_jobs() {
   local cores room
   cores=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)
@@ -36,14 +38,15 @@ quatro_build() {
   cmake --build "$folder" -j "$(quatro_jobs)" "${targets[@]}"
 }
 
-#   quatro_step <what> <command>...: one line here, the rest in the file $log;
-# ends the script with exit code 3 if the command fails
+#   quatro_step <what> <command>...
+# Prints <what> and writes the output of the command to the file $log. Ends the
+# script with exit code 3 if the command fails.
 quatro_step() {
   echo "$1" >&2
   shift
   if ! "$@" >>"$log" 2>&1 </dev/null; then
     tail -n 30 "$log" >&2
-    echo "${0##*/}: failed; the whole log is $PWD/$log" >&2
+    echo "${0##*/}: failed; the full log is $PWD/$log" >&2
     exit 3
   fi
 }

@@ -1,14 +1,16 @@
-# What every target of ours has in common.
+# Settings that all of our targets share.
 #   quatro_target(<name>)
 function(quatro_target name)
   target_compile_features(${name} PUBLIC cxx_std_20)
-  # Contraction would make a result depend on which SIMD path was taken.
+  # Contraction would make results depend on the SIMD path.
   target_compile_options(${name} PRIVATE
       -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off
-      # Calls within a library stay calls within it: nobody puts theirs between.
+      # Calls within a library stay within it; symbol interposition is not
+      # supported.
       -fno-semantic-interposition
-      # GCC 12 sees an overlap in "literal" + std::string (its bug 105651). Below
-      # 512 MB it collects no garbage: an eighth of its time.
+      # GCC 12 reports a false overlap in "literal" + std::string (its bug
+      # 105651). It skips garbage collection below 512 MB, which saves an eighth
+      # of its time.
       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;--param=ggc-min-heapsize=524288>)
   if(QUATRO_SANITIZE)
     target_compile_options(${name} PRIVATE
@@ -16,13 +18,13 @@ function(quatro_target name)
     target_link_options(${name} PUBLIC -fsanitize=${QUATRO_SANITIZE})
   endif()
   if(QUATRO_FUZZ)
-    # Coverage for who fuzzes; a program that does not ignores it.
+    # Coverage for the fuzz targets; other programs ignore it.
     target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)
     target_link_options(${name} PUBLIC -fsanitize=fuzzer-no-link)
   endif()
 endfunction()
 
-# One folder, one library; sources as <name>.cc, linked as quatro::<folder>.
+# One library per folder, with sources <name>.cc, linked as quatro::<folder>.
 #   quatro_library(<folder> SOURCES a.cc b.cc LINKS PUBLIC x PRIVATE y)
 function(quatro_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Lines of CSV whose cells may hold commas (RFC 4180, but for line breaks,
-// which no cell may hold): a cell with a comma or a quote is quoted, and a
-// quote within is doubled.
+// Lines of CSV whose cells may contain commas (RFC 4180, except that a cell may
+// not contain a line break). A cell with a comma or a quote is quoted, and a
+// quote within a cell is doubled.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_CSV_LINE_H_
 #define QUATRO_EXPERIMENTS_BASE_CSV_LINE_H_
@@ -14,15 +14,15 @@
 
 namespace quatro {
 
-// A line break becomes a blank.
+// Quotes the cell if it needs quotes. A line break becomes a space.
 std::string QuoteCsvCell(std::string_view cell);
 
-// Without the line's end.
+// Joins the cells with commas, without a line end.
 std::string JoinCsvLine(const std::vector<std::string>& cells);
 
-// As many cells as there are commas outside quotes, and one. A carriage return
-// at the end is left out. Nullopt if a quote is not closed, or stands anywhere
-// but around a whole cell.
+// Splits a line into its cells, one more than there are commas outside quotes.
+// A carriage return at the end is dropped. Returns nullopt if a quote is not
+// closed, or is anywhere but around a whole cell.
 std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line);
 
 }  // namespace quatro

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Numbers out of lines of text, and back.
+// Parses numbers and fields from lines of text.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_NUMBER_TEXT_H_
 #define QUATRO_EXPERIMENTS_BASE_NUMBER_TEXT_H_
@@ -12,15 +12,16 @@
 
 namespace quatro {
 
-// The parts of a line between any of `separators`, a run of which counts once;
-// a carriage return at the end is left out.
+// The fields of a line between any of `separators`; a run of separators counts
+// as one. A carriage return at the end is dropped.
 std::vector<std::string_view> SplitFields(std::string_view line,
                                           std::string_view separators);
 
-// Finite and the whole field, or nullopt.
+// Returns the number if the whole field is one finite number, else nullopt.
 std::optional<double> ParseFiniteNumber(std::string_view field);
 
-// All lines of a file in order, without their ends; the last may lack one.
+// All lines of a file in order, without their line ends. The last line may lack
+// its line end.
 std::vector<std::string_view> SplitLines(std::string_view text);
 
 }  // namespace quatro

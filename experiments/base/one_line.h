@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Messages that quote a file, a path or a flag, which may hold anything.
+// Makes text safe to print in a one-line message. Quoted files, paths and flags
+// may contain anything.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_ONE_LINE_H_
 #define QUATRO_EXPERIMENTS_BASE_ONE_LINE_H_
@@ -9,7 +10,7 @@
 
 namespace quatro {
 
-// With "?" for line breaks and all else that a terminal would act upon.
+// Replaces line breaks and all other control characters by "?".
 inline std::string OneLine(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a program leaves behind.
+// The output files of a program.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
 #define QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
@@ -13,30 +13,32 @@
 namespace quatro {
 
 struct OutputFile {
-  std::string path;  // Empty: standard output.
+  std::string path;  // Empty for standard output.
   std::string bytes;
 };
 
-// Whether a file could be written here, as far as that can be told beforehand.
+// Returns whether a file could be written here, as far as can be checked
+// beforehand.
 bool CanWrite(const std::string& path, std::string* error);
 
-// The same for all outputs of a program, of which empty ones are left out; none
-// may be one of the inputs or another output.
+// Checks all outputs of a program. Empty paths are skipped. No output may be an
+// input or another output.
 bool CanWriteAll(const std::vector<std::string>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error);
 
-// Makes a folder and its parents, or on an error none of them. Returns those
-// that it made, the innermost first.
+// Creates a folder and its parents, or none of them if there is an error.
+// Returns the folders that it created, innermost first.
 std::vector<std::filesystem::path> MakeFolders(
     const std::filesystem::path& folder, std::error_code* error);
 
-// Returns false and sets *error if anything printed so far did not arrive.
+// Flushes standard output. Returns false and sets *error if anything printed so
+// far could not be written.
 bool FlushOutput(std::string* error);
 
-// Writes them, each whole or not at all. If one can't be written, or what was
-// printed before, returns false, and all files are as they were; only if a
-// folder changes meanwhile may some be new.
+// Writes each file completely or not at all. If one of the files or standard
+// output cannot be written, returns false and restores all files. New files
+// remain only if a folder changes in the meantime.
 bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error);
 
 }  // namespace quatro

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Files that the programs need while they run: scripts, the report's template.
+// Files that the programs need at run time: scripts and the template of the
+// report.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_SHARED_FILE_H_
 #define QUATRO_EXPERIMENTS_BASE_SHARED_FILE_H_
@@ -10,9 +11,9 @@
 
 namespace quatro {
 
-// An installed program has them in share, the build folder those that are made;
-// the others stand beside the sources. The last of these places if it is in
-// none.
+// Finds a shared file. Installed programs have it in share/, generated files
+// are in the build folder, and the others are beside the sources. If none of
+// these has the file, returns the path in the last of them.
 std::filesystem::path FindSharedFile(const std::string& name);
 
 }  // namespace quatro

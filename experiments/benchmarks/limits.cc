@@ -15,8 +15,9 @@ using Coordinates = PairTestLimit::Coordinates;
 constexpr std::size_t kWordBits = 32;
 constexpr std::size_t kRowsPerWord = kWordBits / kLanes;
 
-// Bits of matches [32 `word`, 32 `word` + 32) for the 16 matches of `row`, one
-// word of each: match by match of the former, all lanes of the latter at once.
+// The bits of matches [32 `word`, 32 `word` + 32) for the 16 matches of `row`,
+// one word each. Loops over the former one by one and over all lanes of the
+// latter at once.
 template <int kBytes>
 QUATRO_SIMD_INLINE void TestTile(const Coordinates* rows,
                                  std::size_t word,
@@ -105,7 +106,7 @@ PairTestLimit::PairTestLimit(const PointsRef& source,
     : squared_bound_(static_cast<float>(bound * bound)) {
   CHECK_EQ(source.cols(), target.cols());
   const auto n = static_cast<std::size_t>(source.cols());
-  // Even, as a word of 32 holds two rows.
+  // An even number, because a word of 32 bits holds two rows.
   const std::size_t num_words = (n + kWordBits - 1) / kWordBits;
   words_per_match_ = num_words + num_words % 2;
   rows_.resize(num_words * kRowsPerWord);

@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a machine can do at best, to measure stages against in the same run.
+// The best that a machine can do, to compare stages with in the same run.
 //
-// PairTestLimit: the length test of every pair of matches, once each and into
-// bits, as a loop can do it that has nothing else to do,
+// PairTestLimit applies the length test to every pair of matches once and
+// stores the results as bits, in a loop that does nothing else:
 //
 //   | |p_i - p_j| - |q_i - q_j| | <= bound,   j < i,                       (1)
 //
-// in single precision and, with a^2, b^2 the squared lengths and c the bound,
-// without roots:
+// in single precision. With the squared lengths a^2, b^2 and the bound c, it
+// needs no square roots:
 //
 //   s |s| <= 4 a^2 b^2,   s = a^2 + b^2 - c^2.                             (2)
 //
-// Memory is allocated and written to before: what a graph costs beyond this is
-// its allocation, the other half of its rows, and how well it is written.
+// Memory is allocated and written to before the measurement. A graph costs more
+// than this because of its allocation, the other half of its rows, and its
+// implementation.
 
 #ifndef QUATRO_EXPERIMENTS_BENCHMARKS_LIMITS_H_
 #define QUATRO_EXPERIMENTS_BENCHMARKS_LIMITS_H_
@@ -31,16 +32,16 @@ namespace quatro {
 
 class PairTestLimit {
  public:
-  // `bound` [m]. Sizes must agree.
+  // `bound` [m]. Source and target must have the same size.
   PairTestLimit(const PointsRef& source, const PointsRef& target, double bound);
 
-  // `level` no more than BestSimdLevel().
+  // `level` must not exceed BestSimdLevel().
   void Run(SimdLevel level);
 
-  // Of the last run; j < i.
+  // The result of the last run; j < i.
   bool IsConsistent(Eigen::Index i, Eigen::Index j) const;
 
-  // Of all rows, both halves: what a graph of bits needs.
+  // The size of all rows of both halves, which a graph stored as bits needs.
   std::size_t num_bytes() const { return bits_.size() * sizeof(bits_[0]); }
 
   struct Coordinates {
@@ -48,8 +49,8 @@ class PairTestLimit {
   };
 
  private:
-  std::vector<Coordinates> rows_;    // 16 matches each; NaN beyond the last.
-  std::size_t words_per_match_ = 0;  // Of 32 bits, even.
+  std::vector<Coordinates> rows_;    // 16 matches each, padded with NaN.
+  std::size_t words_per_match_ = 0;  // Words of 32 bits; even.
   std::vector<std::uint32_t> bits_;
   float squared_bound_ = 0.0f;
 };

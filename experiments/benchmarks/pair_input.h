@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What each stage between two clouds and a pose is given, made once.
+// The input of each stage between two clouds and a pose, computed once.
 
 #ifndef QUATRO_EXPERIMENTS_BENCHMARKS_PAIR_INPUT_H_
 #define QUATRO_EXPERIMENTS_BENCHMARKS_PAIR_INPUT_H_
@@ -37,23 +37,23 @@ struct PairInput {
   std::array<CloudInput, 2> clouds;  // Source, target.
   std::vector<Match> mutual_matches;
   MatchedClouds matched;
-  DistinctMatches matches;  // Of those that passed the tuple test.
+  DistinctMatches matches;  // Matches that pass the tuple test.
   ConsistencyOptions consistency;
   std::unique_ptr<const Graph> graph;
   Points clique_source, clique_target;  // [m]
-  QuasiSo3 rotation;                    // Of the ring of differences.
+  QuasiSo3 rotation;                    // On the ring of TIMs.
   RegistrationSummary summary;
 
-  // Whether there is a pose, and so the stages after it.
+  // Returns whether there is a pose, which the later stages need.
   bool IsSolved() const { return summary.target_from_source().has_value(); }
 };
 
-// Options and clouds must be such that Register() has no error.
+// Options and clouds must be valid for Register().
 PairInput MakePairInput(PointCloud source,
                         PointCloud target,
                         const RegistrationOptions& options);
 
-// Called when a stage is first run, and not if none is.
+// Called when a stage first runs; never called if no stage runs.
 using PairSource = std::function<const PairInput&()>;
 
 }  // namespace quatro

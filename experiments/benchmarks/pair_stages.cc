@@ -43,7 +43,7 @@ namespace {
 
 using Counters = benchmark::UserCounters;
 
-// One run of a stage; may count.
+// One run of a stage; may set counters.
 using Stage = std::function<void(const PairInput& pair, Counters* counters)>;
 enum class Needs { kClouds, kPose };
 
@@ -74,7 +74,7 @@ class Adder {
 
 double AsCount(Eigen::Index n) { return static_cast<double>(n); }
 
-// What `body` returns for either cloud is computed.
+// Computes `body` for both clouds.
 template <typename Body>
 void ForBoth(const PairInput& pair, const Body& body) {
   for (const CloudInput& cloud : pair.clouds) {
@@ -94,14 +94,14 @@ void AddFrontEnd(const Adder& add) {
     (*c)["voxels"] =
         AsCount(pair.clouds[0].voxels.cols() + pair.clouds[1].voxels.cols());
   });
-  // Whatever samples points reads them.
+  // Reading every point is the lower limit for any sampling.
   add("voxels/limit", Needs::kClouds, [](const PairInput& pair, Counters*) {
     ForBoth(pair, [](const CloudInput& cloud) -> Points {
       return cloud.cloud.points;
     });
   });
   add("kd_tree/quatro", Needs::kClouds, [](const PairInput& pair, Counters*) {
-    // It is built when it is first asked.
+    // The tree is built at the first query.
     ForBoth(pair, [](const CloudInput& cloud) {
       return KdTree(cloud.voxels).Nearest(cloud.voxels.col(0), 1);
     });
@@ -164,7 +164,7 @@ void AddFrontEnd(const Adder& add) {
       });
 }
 
-// Descriptors from voxels and normals, the search of neighbors with them.
+// The descriptors from voxels and normals, including the search of neighbors.
 void AddDescriptors(const Adder& add) {
   const auto add_one =
       [&](const std::string& who,
@@ -213,7 +213,7 @@ void AddEstimation(const Adder& add) {
         (*c)["matches"] = AsCount(pair.matches.source.cols());
       });
   add("pair_graph/limit", Needs::kClouds, [](const PairInput& pair, Counters*) {
-    // Its memory is not to be counted: made at the first run.
+    // Made at the first run, so that its memory is not measured.
     static const PairInput* made_for = nullptr;
     static std::unique_ptr<PairTestLimit> limit;
     if (made_for != &pair) {
@@ -265,7 +265,7 @@ void AddEstimation(const Adder& add) {
       });
 }
 
-// Estimators that others have, from the same matches.
+// Estimators that other libraries have too, on the same matches.
 void AddOtherEstimators(const Adder& add) {
   using Solve = std::function<PoseSummary(
       const Points& source, const Points& target, double noise_bound)>;
@@ -323,8 +323,8 @@ AlignmentSummary AlignFromPoints(const Points& source,
   return SolveGicp(source, target, initial_target_from_source, gicp);
 }
 
-// From the pose found: with trees and normals at hand, as in Register(); and
-// from bare points, which is all that others take.
+// Refinement from the estimated pose: with trees and normals available, as in
+// Register(), and from bare points, which is all that other libraries take.
 void AddRefinement(const Adder& add) {
   using Method = RefinementMethod;
   for (const Method method : {Method::kIcp, Method::kGicp, Method::kVgicp}) {

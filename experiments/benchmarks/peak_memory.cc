@@ -15,7 +15,7 @@
 namespace quatro {
 namespace {
 
-// [bytes]. Of a line "VmRSS:   1234 kB".
+// Reads a value [bytes] from a line such as "VmRSS:   1234 kB".
 std::optional<double> ReadStatus(const std::string& name) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);) {
@@ -33,7 +33,7 @@ std::optional<double> MeasurePeakMemory(const std::function<void()>& work) {
 #if defined(__GLIBC__)
   malloc_trim(0);
 #endif
-  // Sets the peak to what is resident now.
+  // Resets the peak to the current resident size.
   std::ofstream reset("/proc/self/clear_refs");
   const bool is_reset = static_cast<bool>(reset << "5" << std::flush);
   const auto before = ReadStatus("VmHWM");

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Memory that a piece of work needs at most, as the kernel sees it: the peak of
-// the resident pages during the work, less those before. What the process holds
-// from earlier on and can use again is given back first; some hundred kilobytes
-// are noise all the same.
+// The peak memory of a piece of work, as the kernel reports it: the peak of the
+// resident pages during the work minus the resident pages before it. Free
+// memory of the process is given back to the kernel first. The noise is still
+// some hundred kilobytes.
 
 #ifndef QUATRO_EXPERIMENTS_BENCHMARKS_PEAK_MEMORY_H_
 #define QUATRO_EXPERIMENTS_BENCHMARKS_PEAK_MEMORY_H_
@@ -13,7 +13,7 @@
 
 namespace quatro {
 
-// [bytes]. Nullopt where the kernel does not tell (Linux does).
+// Returns [bytes], or nullopt if the kernel does not report it (Linux does).
 std::optional<double> MeasurePeakMemory(const std::function<void()>& work);
 
 }  // namespace quatro

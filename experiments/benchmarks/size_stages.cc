@@ -50,7 +50,7 @@ void Add(const std::string& stage,
       ->UseRealTime();
 }
 
-// Large enough for no cache: 256 MiB.
+// The block exceeds every cache: 256 MiB.
 void CopyMemory(benchmark::State& state) {
   const std::size_t size = std::size_t{1} << 28;
   const std::vector<char> from(size, 1);
@@ -60,12 +60,13 @@ void CopyMemory(benchmark::State& state) {
     benchmark::DoNotOptimize(to.data());
     benchmark::ClobberMemory();
   }
-  // Read and written.
+  // Each byte is read and written.
   state.SetBytesProcessed(state.iterations() * 2 *
                           static_cast<std::int64_t>(size));
 }
 
-// How far off the answer is, so that none is fast by being wrong.
+// Reports the error of the pose, so that a fast but incorrect answer is
+// noticed.
 void ReportError(const PoseSummary& summary,
                  const MatchedProblem& problem,
                  benchmark::State* state) {
@@ -125,8 +126,8 @@ void RunQuatro(int size, int num_threads, benchmark::State& state) {
   ReportError(summary, problem, &state);
 }
 
-// What follows the clique, a twentieth of which is wrong: yaw by GNC, the exact
-// one beside it, translation.
+// The stages after the clique, with 5 % outliers: yaw by GNC, the exact yaw,
+// and the translation.
 void SolveClique(benchmark::State& state) {
   const MatchedProblem problem = MakeProblem(kCliqueSize, 0.05);
   const QuatroOptions options;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What quatro_benchmark measures. A benchmark's name is
+// The stages that quatro_benchmark measures. A benchmark's name is
 //
 //   stage/who[/case]      graph/quatro/N:1000
 //
-// `who` is quatro, `limit` (a machine's), or another library. Those of one
-// stage and case get the same input and are there to be compared.
+// `who` is quatro, `limit` (the best a machine can do), or another library.
+// Benchmarks of the same stage and case get the same input and can be compared.
 
 #ifndef QUATRO_EXPERIMENTS_BENCHMARKS_STAGES_H_
 #define QUATRO_EXPERIMENTS_BENCHMARKS_STAGES_H_
@@ -16,11 +16,12 @@
 
 namespace quatro {
 
-// From two clouds to a pose and a verdict; Register() also by two threads.
+// All stages from two clouds to a pose and a verdict. Register() also runs with
+// two threads.
 void AddPairStages(const PairSource& pair);
 
-// Estimators over the number of matches: those with a graph up to
-// kMaxGraphSize. Memory's bandwidth, too.
+// Estimators over the number of matches; those that build a graph run up to
+// kMaxGraphSize. Also measures memory bandwidth.
 constexpr int kMaxGraphSize = 50'000;
 void AddSizeStages(const std::vector<int>& sizes, int num_threads);
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Starts a Slurm of one node on this machine, by itself and in a folder of its
-# own, shares a small run out over a job array, kills one task and requeues it,
-# merges, and compares the tables with those of the run in one piece.
+# Starts a Slurm of one node on this machine, in its own folder. Splits a small
+# run over a job array, kills and requeues one task, merges, and compares the
+# tables with those of an unsplit run.
 #   experiments/cluster/try_slurm.sh FOLDER FLAGS OF quatro_experiment...
-# The flags are without --output, --threads and --shard. Needs root, and Debian's
-# slurm-wlm and munge. What Slurm left to tell stays in FOLDER.
-# Exit code: 0 if all tables but those of times are the same; 1 if not; 2 if
-# something is missing.
+# The flags must not include --output, --threads and --shard. Needs root, and
+# Debian's slurm-wlm and munge. Slurm's logs stay in FOLDER. Exit code: 0 if all
+# tables except the timing tables are equal; 1 if not; 2 if something is
+# missing.
 set -euo pipefail
 
 if (($# < 2)); then
@@ -17,16 +17,16 @@ folder=$(realpath -m -- "$1")
 shift
 for program in munged slurmctld slurmd sbatch; do
   if ! command -v "$program" >/dev/null; then
-    echo "try_slurm.sh: there is no $program; on Debian: apt-get install slurm-wlm munge" >&2
+    echo "try_slurm.sh: $program is missing; on Debian: apt-get install slurm-wlm munge" >&2
     exit 2
   fi
 done
 if ((EUID != 0)); then
-  echo "try_slurm.sh: must be run by root, as slurmd must" >&2
+  echo "try_slurm.sh: must be run by root because of slurmd" >&2
   exit 2
 fi
 if [[ -e $folder ]]; then
-  echo "try_slurm.sh: $folder is there already" >&2
+  echo "try_slurm.sh: $folder already exists" >&2
   exit 2
 fi
 
@@ -105,7 +105,7 @@ echo "job $job of $num_shards tasks"
 wait_for "first task" 60 is_running "${job}_1"
 sleep 0.5
 scontrol requeue "${job}_1" && echo "task 1 killed and requeued"
-# A requeued task waits for two minutes unless it is told not to.
+# A requeued task otherwise waits for two minutes.
 wait_for "requeue" 60 scontrol update JobId="${job}_1" StartTime=now
 wait_for "end of the array" 3600 is_gone "$job"
 merge=$(sbatch --parsable "$here/merge.sh" "${flags[@]}" --output="$folder/parts")
@@ -113,7 +113,7 @@ wait_for "merge" 600 is_gone "$merge"
 cat "quatro-merge-$merge.log" >&2
 "$QUATRO_EXPERIMENT" "${flags[@]}" --output="$folder/whole" >/dev/null
 if diff -r --exclude='timing*' "$folder/whole/tables" "$folder/parts/tables"; then
-  echo "tables are the same, byte by byte"
+  echo "tables are identical"
 else
   echo "tables differ" >&2
   exit 1

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A sequence of whatever layout its folder has:
+// Reads a sequence in any of the supported layouts, which the folder's contents
+// select:
 //
 //   velodyne_points/    KITTI raw (kitti_raw.h)
 //   sensors/, mapping/sensors/ or release/mapping/sensors/
@@ -20,14 +21,14 @@ namespace quatro {
 struct AnySequenceOptions {
   std::string folder;
 
-  // Empty, or the name of one below `folder`: of KITTI odometry as
-  // kitti_odometry.h looks for it, of the others FOLDER/NAME.
+  // Empty, or the name of a sequence below `folder`. KITTI odometry searches
+  // for it as kitti_odometry.h describes; the other layouts use FOLDER/NAME.
   std::string sequence;
 
   double ins_std = 0.0087;  // [rad]
 };
 
-// As the reader of that layout.
+// See the reader of the selected layout.
 std::optional<SequenceData> ReadAnySequence(const AnySequenceOptions& options,
                                             std::string* error);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A table of text (csv_line.h) whose first line names the columns.
+// A text table (csv_line.h) whose first line names the columns.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_CSV_TABLE_H_
 #define QUATRO_EXPERIMENTS_DATASETS_CSV_TABLE_H_
@@ -24,9 +24,9 @@ struct CsvTable {
   bool Has(const std::string& column) const;
 };
 
-// Nullopt with one line in *error, which names file and line, if a column comes
-// twice or a row has not as many cells as there are columns. Empty lines are
-// passed over.
+// Returns nullopt with one line in *error, which names file and line, if a
+// column name is repeated or a row does not have one cell per column. Empty
+// lines are ignored.
 std::optional<CsvTable> ReadCsvTable(const std::string& path,
                                      std::string* error);
 

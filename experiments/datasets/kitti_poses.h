@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Poses in the format of KITTI odometry: a line a frame, 12 numbers, the rows
-// of a 3x4 matrix
+// Poses in the format of KITTI odometry. Each line is one frame, with 12
+// numbers, the rows of a 3x4 matrix
 //
 //   P_i = cam0 of frame i in cam0 of frame 0,
 //
-// and the calibration beside them, Tr: points of the lidar into cam0. With
-// world_from_scan of experiments/odometry/odometry.h,
+// The calibration Tr moves points of the lidar into cam0. With world_from_scan
+// of experiments/odometry/odometry.h,
 //
 //   P_i = Tr world_from_scan_i Tr^-1.                                      (1)
 //
-// Rotations are written with six digits or so: read ones are replaced by the
-// rotation that is nearest.
+// Files store rotations with about six digits. Each rotation is replaced by the
+// nearest valid one when it is read.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_KITTI_POSES_H_
 #define QUATRO_EXPERIMENTS_DATASETS_KITTI_POSES_H_
@@ -25,18 +25,19 @@
 
 namespace quatro {
 
-// The nearest rigid motion; nullopt if the left block is more than 1e-3 from
-// any rotation.
+// Returns the nearest rigid motion; nullopt if the left block differs by more
+// than 1e-3 from every rotation.
 std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix);
 
-// Strict: nullopt and one line in *error, which names file, line and reason,
-// for anything else than 12 finite numbers a line that make a rigid motion.
+// Strict: every line must have 12 finite numbers that form a rigid motion.
+// Otherwise returns nullopt and one line in *error, which names file, line and
+// reason.
 std::optional<std::vector<Rigid3>> ReadKittiPoses(const std::string& path,
                                                   std::string* error);
 
 std::string FormatKittiPoses(const std::vector<Rigid3>& poses);
 
-// Tr of a calib.txt.
+// Reads Tr from a calib.txt.
 std::optional<Rigid3> ReadKittiCalibration(const std::string& path,
                                            std::string* error);
 
@@ -44,7 +45,8 @@ std::optional<Rigid3> ReadKittiCalibration(const std::string& path,
 std::vector<Rigid3> MoveToCam0(const std::vector<Rigid3>& world_from_scan,
                                const Rigid3& cam0_from_lidar);
 
-// The poses of the given frames. Nullopt with *error set if one is not there.
+// The poses of the given frames. Returns nullopt with *error set if one is
+// missing.
 std::optional<std::vector<Rigid3>> SelectFrames(
     const std::vector<Rigid3>& poses,
     const std::vector<int>& frames,

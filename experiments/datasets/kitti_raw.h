@@ -4,14 +4,16 @@
 //
 //   FOLDER/velodyne_points/data/0000000000.bin ...   the name is the frame
 //   FOLDER/oxts/data/0000000000.txt ...              (oxts.h)
-//   calib_imu_to_velo.txt                            in FOLDER or around it
+//   calib_imu_to_velo.txt                            in FOLDER or its parent
 //
-// The true poses are those of the INS, with I of that file (velodyne from IMU),
+// The true poses are those of the INS. With I from that file (velodyne from
+// IMU),
 //
 //   W_i = world_from_imu_i I^-1.                                          (1)
 //
-// They are good over a few hundred frames and off by up to metres where a drive
-// comes by again. There is no INS to be had beside them: it is the truth here.
+// They are accurate over a few hundred frames, and off by up to some meters
+// where a drive revisits a place. There is no separate INS, because the INS is
+// the ground truth here.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_KITTI_RAW_H_
 #define QUATRO_EXPERIMENTS_DATASETS_KITTI_RAW_H_
@@ -23,9 +25,9 @@
 
 namespace quatro {
 
-// Nullopt with one line in *error, which names the file and the line, if there
-// are no scans or oxts and calibration can't be read. Single scans and readings
-// that are missing are counted and noted.
+// Returns nullopt with one line in *error, which names file and line, if there
+// are no scans or if oxts or calibration cannot be read. Single missing scans
+// and readings are counted and noted.
 std::optional<SequenceData> ReadKittiRaw(const std::string& folder,
                                          std::string* error);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The drives of a folder (any_sequence.h), or the pairs of a list: one that
-// ends in .csv is of pairs_csv.h, any other of kitti_pair_list.h.
+// Opens the drives of a folder (any_sequence.h) or the pairs of a list:
+// pairs_csv.h for names that end in .csv, kitti_pair_list.h for all others.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
 #define QUATRO_EXPERIMENTS_DATASETS_OPEN_DATASET_H_
@@ -16,20 +16,22 @@
 namespace quatro {
 
 struct DatasetOptions {
-  std::string folder;                  // Of one drive, or of several.
-  std::vector<std::string> sequences;  // Their names; empty: all there are.
+  std::string folder;                  // With one or several drives.
+  std::vector<std::string> sequences;  // Names; empty: all.
 
-  // File of true poses of the one drive, of KITTI odometry; empty: the data
-  // set's own.
+  // The file of true poses of the only drive, for KITTI odometry; empty: the
+  // data set's own.
   std::string poses;
 };
 
-// Nullopt with one line in *error if there are none, or one can't be read.
+// Returns nullopt with one line in *error if there are no drives, or if one
+// cannot be read.
 std::optional<std::vector<SequenceData>> OpenDataset(
     const DatasetOptions& options, std::string* error);
 
-// `folder`: that of the sequences which a list of KITTI pairs names; empty for
-// one that names its scans itself. Nullopt with one line in *error.
+// `folder` contains the sequences that a list of KITTI pairs names; it is empty
+// for a list that names its scans itself. Returns nullopt with one line in
+// *error if the list is invalid.
 std::optional<PairSelection> OpenPairList(const std::string& list,
                                           const std::string& folder,
                                           std::string* error);

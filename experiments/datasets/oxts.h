@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The INS of KITTI, oxts/data/0000000000.txt ..., a file a frame: one line of
-// 30 numbers, of which the first six are read, lat lon alt [deg, deg, m] and
+// The INS of KITTI, oxts/data/0000000000.txt ..., one file per frame with one
+// line of 30 numbers. The first six are read: lat lon alt [deg, deg, m] and
 // roll pitch yaw [rad]. With s = cos(first lat) and the Earth's radius E,
 //
 //   x = s E lon,   y = s E log tan((90 deg + lat) / 2),   z = alt,        (1)
 //   world_from_imu = R_z(yaw) R_y(pitch) R_x(roll),
 //
-// x to the east, y to the north, z up.
+// where x points east, y north and z up.
 //
 // Source: development kit of the KITTI raw data, for the definition (Geiger et
 // al., IJRR 2013).
@@ -31,16 +31,16 @@ struct OxtsReading {
   Attitude attitude;       // World from IMU.
 };
 
-// Frame -> reading, of all files of `folder`/data. Nullopt with *error set,
-// which names file and line, if there are none or one is not as above.
+// Frame -> reading, for all files of `folder`/data. Returns nullopt with *error
+// set, which names file and line, if there are none or one is invalid.
 std::optional<std::map<int, OxtsReading>> ReadOxts(const std::string& folder,
                                                    std::string* error);
 
-// Frame -> world_from_imu, by (1) less the position of the first frame.
+// Frame -> world_from_imu by (1), relative to the position of the first frame.
 std::map<int, Rigid3> PosesOfOxts(const std::map<int, OxtsReading>& readings);
 
-// velodyne_from_imu: lines "R:" with 9 numbers, row by row, and "T:" with 3
-// [m]. Other lines are passed over.
+// Reads velodyne_from_imu: line "R:" with 9 numbers, row by row, and line "T:"
+// with 3 numbers [m]. Other lines are ignored.
 std::optional<Rigid3> ReadImuToVelodyne(const std::string& path,
                                         std::string* error);
 

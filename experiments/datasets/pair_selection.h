@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a protocol or a list of pairs makes: the tasks in order, and what was
-// left out or is missing, a line each, for people.
+// The output of a protocol or a list of pairs: the tasks in order, and a note
+// per line about omitted or missing data.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_PAIR_SELECTION_H_
 #define QUATRO_EXPERIMENTS_DATASETS_PAIR_SELECTION_H_
@@ -16,17 +16,17 @@ namespace quatro {
 struct PairSelection {
   std::vector<PairTask> tasks;
 
-  // Pairs for which a pose is missing, so that they are no tasks.
+  // Pairs for which a pose is missing; they do not become tasks.
   int num_without_pose = 0;
 
-  // Files of scans that are not there, each once, though many tasks may name
-  // it; those tasks stay.
+  // Missing scan files, each counted once even if several tasks name it. Those
+  // tasks are kept.
   int num_missing_scans = 0;
 
   std::vector<std::string> notes;
 };
 
-// Counts and notes the files that tasks name and that are not there.
+// Counts and notes the missing files that tasks name.
 void CountMissingScans(PairSelection* selection);
 
 }  // namespace quatro

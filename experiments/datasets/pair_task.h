@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One registration of an experiment, before anything is read: which two scans
-// or which matched points, what is true of them, and which part of a table they
-// count in.
+// One registration of an experiment, before any data is read: the two scans or
+// matched points, the true pose, and the part of a table in which it counts.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_PAIR_TASK_H_
 #define QUATRO_EXPERIMENTS_DATASETS_PAIR_TASK_H_
@@ -20,37 +19,37 @@ namespace quatro {
 struct PairIns {
   Attitude source;
   Attitude target;
-  double std = 0.0;  // Of each roll and pitch [rad].
+  double std = 0.0;  // Of roll and pitch, each [rad].
 };
 
 struct PairTask {
-  // Names it within its run, for people as well: "00/004413-000850".
+  // Identifies the task within its run; readable for people:
+  // "00/004413-000850".
   std::string name;
 
-  // A table has a row for each set and a column for each bin, or the other way
-  // round: "00" and "8-10 m"; "hd_b1" and "yaw 90 deg".
+  // A table has a row for each set and a column for each bin, or vice versa:
+  // "00" and "8-10 m"; "hd_b1" and "yaw 90 deg".
   std::string set;
   std::string bin;
 
-  // Files of scans. One that can't be read makes this task unreadable, and no
-  // other.
+  // Scan files. If one cannot be read, only this task becomes unreadable.
   std::string source;
   std::string target;
 
-  // In place of the files: draws matched points, the same ones each time. Set
+  // Replaces the files: generates matched points, the same on each call. Set
   // for all tasks of a run or for none.
   std::function<MatchedProblem()> make_problem;
 
-  // The source is turned about its z axis by so much after it is read [rad].
-  // Truth and INS below are of the turned scan.
+  // The source is rotated about its z axis by this angle after reading [rad].
+  // The true pose and the INS below are those of the rotated scan.
   double added_yaw = 0.0;
 
-  // Nullopt: the scans share no place.
+  // Nullopt if the scans do not overlap.
   std::optional<Rigid3> true_target_from_source;
 
   std::optional<PairIns> ins;
 
-  // Leaves a 3D view for the report (experiments/report/pair_view.h).
+  // Stores a 3D view for the report (experiments/report/pair_view.h).
   bool keeps_view = false;
 };
 

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A list of pairs, as quatro_simulate writes it (pair_files.h) and as others
-// have it: a CSV whose first line names the columns, in any order,
+// A list of pairs, written by quatro_simulate (pair_files.h) or by others. It
+// is a CSV file whose first line names the columns, in any order:
 //
 //   source,target           files, relative to the list's folder
-//   set                     may be missing: the list's own name
-//   tx,ty,tz,qx,qy,qz,qw    target_from_source [m]; all or none of them. Empty
-//                           or missing: the scans share no place
+//   set                     optional; default: the list's own name
+//   tx,ty,tz,qx,qy,qz,qw    target_from_source [m]; all or none of these
+//                           columns. Empty or missing: no overlap
 //   source_rpy_deg,target_rpy_deg,ins_std_deg
 //                           the INS: "roll,pitch,yaw" of each scan and the
-//                           standard deviation of each angle; empty: none
+//                           standard deviation of each angle; empty: no INS
 //
-// Other columns are passed over.
+// Other columns are ignored.
 
 #ifndef QUATRO_EXPERIMENTS_DATASETS_PAIRS_CSV_H_
 #define QUATRO_EXPERIMENTS_DATASETS_PAIRS_CSV_H_
@@ -23,10 +23,10 @@
 
 namespace quatro {
 
-// In the order of the file, of bin "all"; a task's name is "<set>/<row>", rows
-// counted from 1 in the file. Nullopt with one line in *error, which names the
-// file, the line and the column, for anything else than the above. Scans that
-// are missing are counted and noted.
+// Pairs in the order of the file, with bin "all". A task's name is
+// "<set>/<row>", with rows counted from 1 in the file. Returns nullopt with one
+// line in *error, which names file, line and column, if the list is invalid.
+// Missing scans are counted and noted.
 std::optional<PairSelection> ReadPairsCsv(const std::string& path,
                                           std::string* error);
 

@@ -17,7 +17,7 @@
 namespace quatro {
 namespace {
 
-// Of some values, whose order it changes.
+// Changes the order of `values`.
 double QuantileInPlace(std::vector<double>* values, double share) {
   const double place = share * static_cast<double>(values->size() - 1);
   const auto below = static_cast<std::ptrdiff_t>(place);
@@ -29,7 +29,7 @@ double QuantileInPlace(std::vector<double>* values, double share) {
   return *at + rest * (above - *at);
 }
 
-// `statistic` may change the order of what it is given.
+// `statistic` may change the order of its argument.
 template <typename Statistic>
 std::optional<Interval> Bootstrap(const std::vector<double>& values,
                                   const BootstrapOptions& options,
@@ -62,7 +62,7 @@ Interval WilsonInterval(long k, long n, double confidence) {
   const double p = static_cast<double>(k) / count;
   const double z = NormalQuantile(0.5 * (1.0 + confidence));
   const double z2 = z * z / count;
-  // The roots of (1 + z2) q^2 - (2 p + z2) q + p^2, from (1).
+  // The roots of (1 + z2) q^2 - (2 p + z2) q + p^2, by (1).
   const double center = (p + 0.5 * z2) / (1.0 + z2);
   const double half = std::sqrt(z2 * (p * (1.0 - p) + 0.25 * z2)) / (1.0 + z2);
   return {k == 0 ? 0.0 : center - half, k == n ? 1.0 : center + half};

@@ -44,7 +44,7 @@ bool KittiDriftOptions::IsValid(std::string* error) const {
              !std::all_of(lengths.begin(), lengths.end(), [](double length) {
                return length > 0.0 && std::isfinite(length);
              })) {
-    *error = "lengths must be some numbers > 0 and finite";
+    *error = "lengths must be a nonempty list of finite numbers > 0";
   }
   return error->empty();
 }
@@ -58,7 +58,7 @@ std::optional<KittiDrift> ComputeKittiDrift(
   if (true_poses.empty() || true_poses.size() != estimated_poses.size()) {
     *error = std::to_string(true_poses.size()) + " true poses and " +
              std::to_string(estimated_poses.size()) +
-             " estimated ones, must be as many and some";
+             " estimated poses; the numbers must be equal and > 0";
     return std::nullopt;
   }
   const std::vector<double> path = PathLengths(true_poses);
@@ -85,7 +85,7 @@ std::optional<KittiDrift> ComputeKittiDrift(
       rotation_sum += drift.segments.back().rotation_error;
     }
   }
-  // 0 / 0 is NaN, as it should be.
+  // 0 / 0 is NaN, as intended.
   const auto n = static_cast<double>(drift.segments.size());
   drift.translation_percent = 100.0 * translation_sum / n;
   drift.rotation_deg_per_100m = 100.0 * rotation_sum / n / kDegree;

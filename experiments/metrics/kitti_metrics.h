@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Drift of an odometry as the KITTI benchmark has it. With P_i the true poses,
-// Q_i the estimated ones, and s_i the true path's length up to frame i, a
-// segment of length L starts at every step-th frame f and ends at the first
-// frame l with s_l > s_f + L. Its error is
+// Drift of an odometry as defined by the KITTI benchmark. With the true poses
+// P_i, the estimated poses Q_i, and the length s_i of the true path up to frame
+// i, a segment of length L starts at every step-th frame f and ends at the
+// first frame l with s_l > s_f + L. Its error is
 //
 //   E = (Q_f^-1 Q_l)^-1 (P_f^-1 P_l),                                      (1)
 //   t = |translation of E| / L,   r = angle of E / L,
 //
-// for L = 100, 200, ... 800 m as far as the path goes; t_rel and r_rel are
-// the means over all segments of all lengths. Swapping truth and estimate
-// changes neither |translation| nor angle, only where segments end.
+// for L = 100, 200, ... 800 m as far as the path goes. t_rel and r_rel are the
+// means over all segments of all lengths. Swapping truth and estimate changes
+// neither |translation| nor angle, only the ends of the segments.
 //
 // Source: evaluate_odometry.cpp of the benchmark's development kit, for the
 // definition (Geiger et al., CVPR 2012).
@@ -29,7 +29,7 @@ namespace quatro {
 struct KittiDriftOptions {
   std::vector<double> lengths = {
       100.0, 200.0, 300.0, 400.0, 500.0, 600.0, 700.0, 800.0};  // [m]
-  int step = 10;  // Frames from one segment's start to the next.
+  int step = 10;  // Frames between starts of segments.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -43,20 +43,20 @@ struct KittiSegment {
 };
 
 struct KittiDrift {
-  std::vector<KittiSegment> segments;  // Empty for paths of no 100 m.
+  std::vector<KittiSegment> segments;  // Empty for paths below 100 m.
 
-  // The means over them, or NaN.
+  // The means over the segments; NaN if there are none.
   double translation_percent = 0.0;
   double rotation_deg_per_100m = 0.0;
 
-  // From the first frame to the last, for paths of any length.
+  // The error from the first to the last frame, for paths of any length.
   double path_length = 0.0;            // [m]
   double end_translation_error = 0.0;  // [m]
   double end_rotation_error = 0.0;     // [rad]
 };
 
-// Nullopt with *error set if there is no pose, their numbers differ, or an
-// option is out of range.
+// Returns nullopt with *error set if there are no poses, if the numbers of
+// poses differ, or if an option is out of range.
 std::optional<KittiDrift> ComputeKittiDrift(
     const std::vector<Rigid3>& true_poses,
     const std::vector<Rigid3>& estimated_poses,

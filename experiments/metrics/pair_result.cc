@@ -58,7 +58,8 @@ constexpr std::size_t kNumColumns = std::size(kColumns);
 const char* const kStatuses[] = {
     "registered", "ambiguous", "degenerate", "insufficient", "unreadable"};
 
-// text * unit, rounded once. Nullopt unless all of it is a finite number.
+// Parses text * unit, rounded once. Returns nullopt unless the whole text is a
+// finite number.
 std::optional<double> ParseNumber(std::string_view text, long double unit) {
   long double number = 0.0L;
   const char* const last = text.data() + text.size();
@@ -70,7 +71,7 @@ std::optional<double> ParseNumber(std::string_view text, long double unit) {
   return value;
 }
 
-// The fewest digits by which ParseNumber gives `value` again.
+// The fewest digits from which ParseNumber recovers `value`.
 std::string FormatNumber(double value, long double unit) {
   char text[64];
   const auto shortest = static_cast<double>(value / unit);
@@ -100,8 +101,8 @@ std::string FormatStages(const std::vector<StageTime>& stages) {
   return text;
 }
 
-// Takes the cells of a line one after the other, and remembers what was wrong
-// with the first bad one.
+// Reads the cells of a line one after another and remembers the reason for the
+// first invalid one.
 class CellReader {
  public:
   explicit CellReader(const std::vector<std::string>* cells) : cells_(*cells) {}
@@ -120,7 +121,7 @@ class CellReader {
     const std::string& text = Text();
     if (std::find(std::begin(kStatuses), std::end(kStatuses), text) ==
         std::end(kStatuses)) {
-      Fail("is no status: " + Quoted(text));
+      Fail("is not a status: " + Quoted(text));
     }
     return text;
   }
@@ -132,7 +133,7 @@ class CellReader {
     if (text.empty()) return std::nullopt;
     const auto value = ParseNumber(text, unit);
     if (!value) {
-      Fail("is no finite number: " + Quoted(text));
+      Fail("is not a finite number: " + Quoted(text));
     } else if (*value < min || *value > max) {
       Fail("is out of range: " + Quoted(text));
     }
@@ -154,12 +155,12 @@ class CellReader {
     const char* const last = text.data() + text.size();
     const auto [end, code] = std::from_chars(text.data(), last, count);
     if (code != std::errc() || end != last || count < 0) {
-      Fail("is no count: " + Quoted(text));
+      Fail("is not a count: " + Quoted(text));
     }
     return count;
   }
 
-  // Of the next `n` cells, the first of which is not consumed.
+  // Checks the next `n` cells, without consuming them.
   bool AreEmpty(std::size_t n) const {
     const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(next_);
     return std::all_of(first,
@@ -187,7 +188,7 @@ class CellReader {
     return stages;
   }
 
-  // About the cell last read.
+  // `reason` refers to the cell read last.
   void Fail(const std::string& reason) {
     if (!error_.empty()) return;
     error_ = std::string("column ") + kColumns[next_ - 1] + " " + reason;
@@ -225,7 +226,7 @@ std::optional<Rigid3> ReadPose(CellReader* cells) {
   }
   const Eigen::Matrix3d square = pose.rotation * pose.rotation.transpose();
   if (!square.isIdentity(1e-6) || pose.rotation.determinant() < 0.0) {
-    cells->Fail("ends what is no rotation");
+    cells->Fail("completes a matrix that is not a rotation");
   }
   return pose;
 }
@@ -306,7 +307,7 @@ std::optional<PairResult> ParseResultCsv(const std::string& line,
   result.num_inliers = reader.Count();
   result.target_from_source = ReadPose(&reader);
   if (result.error && !result.target_from_source) {
-    reader.Fail("is empty, yet there is an error of the pose");
+    reader.Fail("is empty, but the line has an error of the pose");
   }
   result.total_seconds = reader.NumberThere(0.0, kInfinity, kMillisecond);
   result.stage_times = reader.Stages();
@@ -328,7 +329,7 @@ std::optional<std::vector<PairResult>> ReadResultCsv(const std::string& path,
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::string where = path + ": line " + std::to_string(i + 1) + " ";
     if (i + 1 == lines.size() && !text->ends_with('\n')) {
-      *error = where + "is cut off";
+      *error = where + "is truncated";
       return std::nullopt;
     }
     auto result = ParseResultCsv(std::string(lines[i]), error);

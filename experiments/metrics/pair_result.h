@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What one method made of one pair of scans, and how far off it is. With the
-// true pose (R, t) and the estimated one (R', t'), both target_from_source,
+// The result of one method on one pair of scans, and its error. With the true
+// pose (R, t) and the estimated pose (R', t'), both target_from_source,
 //
 //   rotation error  = angle of R^T R',   yaw error = |yaw of R' - yaw of R|,
 //   translation error = |t' - t|.                                          (1)
@@ -33,55 +33,59 @@ struct PairResult {
   std::string bin;
   std::string method;
 
-  // registered, ambiguous, degenerate, insufficient (the verdict's), or
-  // unreadable: a scan that is missing or broken.
+  // The verdict's status (registered, ambiguous, degenerate, insufficient), or
+  // unreadable if a scan is missing or broken.
   std::string status;
 
-  // Nullopt without an answer.
+  // Nullopt if there is no answer.
   std::optional<Rigid3> target_from_source;
 
-  // Of the true pose; nullopt if the scans share no place.
+  // Properties of the true pose; nullopt if the scans do not overlap.
   std::optional<double> distance;   // |t| [m]
   std::optional<double> true_yaw;   // [rad], -pi .. pi
-  std::optional<double> true_tilt;  // [rad], what is left without the yaw
+  std::optional<double> true_tilt;  // [rad], the rotation without its yaw
 
-  // Nullopt without an answer or without truth.
+  // Nullopt without an answer or without a true pose.
   std::optional<PairError> error;
 
-  std::optional<double> probability;  // Of being right; the verdict's.
+  std::optional<double>
+      probability;  // The verdict's, that the pose is correct.
   long num_matches = 0;
   long num_consistent = 0;
   long num_inliers = 0;
 
-  // The front end's (voxels, features, matching) are those of the pair and the
-  // same for all methods from matches.
+  // The stages of the front end (voxels, features, matching) run once per pair;
+  // all methods that take matches share their times.
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 
-  // Has truth and an answer within these of it.
+  // Returns whether there are a true pose and an answer, and its errors are
+  // within these limits.
   bool IsWithin(double max_translation, double max_rotation) const {
     return error && error->translation <= max_translation &&
            error->rotation <= max_rotation;
   }
 };
 
-// A line of CSV each, under a line of names: pair, set, bin, method, status,
-// distance_m, true_yaw_deg, true_tilt_deg, rotation_error_deg, yaw_error_deg,
-// translation_error_m, probability, matches, consistent, inliers, m00, m01,
-// m02, m03, m10, ... m23 (the rows of the pose's matrix), total_ms, stages_ms
-// ("voxels=1.5;features=60"). What is not known is empty. Numbers are written
-// so that reading them gives the same ones bit for bit; they must be finite.
-// Names may hold commas and quotes, not line breaks.
+// Results as CSV: a header line with the names of the columns, then a line per
+// result: pair, set, bin, method, status, distance_m, true_yaw_deg,
+// true_tilt_deg, rotation_error_deg, yaw_error_deg, translation_error_m,
+// probability, matches, consistent, inliers, m00, m01, m02, m03, m10, ... m23
+// (the rows of the pose's matrix), total_ms, stages_ms
+// ("voxels=1.5;features=60"). Unknown values are empty cells. Numbers must be
+// finite; reading them back gives the same bits. Names may contain commas and
+// quotes, but no line breaks.
 std::string ResultCsvHeader();
 std::string FormatResultCsv(const PairResult& result);
 
-// Nullopt with *error set, which names the column, if it is not such a line.
-// Neither has the line's end.
+// Parses a line without its line end. Returns nullopt with *error set, which
+// names the column, if the line is invalid.
 std::optional<PairResult> ParseResultCsv(const std::string& line,
                                          std::string* error);
 
-// All of a file, which starts with the line of names. Nullopt with *error set,
-// which names file, line and column; also if the last line is cut off.
+// Reads a whole file, which starts with the header line. Returns nullopt with
+// *error set, which names file, line and column, also if the last line is
+// truncated.
 std::optional<std::vector<PairResult>> ReadResultCsv(const std::string& path,
                                                      std::string* error);
 

@@ -16,7 +16,7 @@
 namespace quatro {
 namespace {
 
-// Sums of the same numbers in another order differ by rounding.
+// Summing the same numbers in another order changes the rounding.
 bool IsAsLarge(double sum, double reference, double scale) {
   return std::abs(sum) >= reference - 1e-12 * scale;
 }
@@ -40,7 +40,7 @@ double McNemarP(long b, long c) {
   CHECK(b >= 0 && c >= 0) << b << ", " << c;
   const auto n = static_cast<double>(b + c);
   const long least = std::min(b, c);
-  // By logarithms: 2^n overflows.
+  // Uses logarithms because 2^n overflows.
   double sum = 0.0;
   double log_term = -n * std::log(2.0);
   for (long k = 0; k <= least; ++k) {

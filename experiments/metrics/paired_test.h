@@ -1,19 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Whether two methods differ on the same pairs, or chance alone would do. Pairs
-// are hard or easy for both, so only those that tell the methods apart count.
-// Of n pairs that exactly one of the methods solved, b by the first and c by
-// the second, chance would give each with 1/2 (exact McNemar test),
+// Tests whether two methods differ on the same pairs by more than chance. Some
+// pairs are hard for both methods, so only pairs on which the methods differ
+// count. If exactly one method solved each of n pairs, b of them the first
+// method and c the second, then under chance each method solves a pair with
+// probability 1/2 (exact McNemar test):
 //
 //   p = min(1, 2 sum_{k <= min(b, c)} C(n, k) / 2^n),   n = b + c.         (1)
 //
-// Of errors, with d_i the first's less the second's: chance would give every
-// d_i either sign (sign-flip test), so with signs s drawn evenly
+// For errors, let d_i be the first method's error minus the second's. Under
+// chance every d_i has either sign (sign-flip test). With signs s drawn
+// uniformly,
 //
 //   p = P(|sum_i s_i d_i| >= |sum_i d_i|).                                 (2)
 //
-// Two-sided both; 1 where nothing tells the methods apart. Not adjusted for the
-// number of comparisons.
+// Both tests are two-sided; p is 1 if the methods do not differ. p is not
+// adjusted for the number of comparisons.
 //
 // Sources: McNemar, "Note on the Sampling Error of the Difference between
 // Correlated Proportions", Psychometrika 1947. Fisher, "The Design of
@@ -31,13 +33,13 @@
 
 namespace quatro {
 
-// (1); b, c >= 0.
+// Equation (1); b, c >= 0.
 double McNemarP(long b, long c);
 
 struct SignFlipOptions {
-  // Up to so many differences other than 0 all signs are tried; for more of
-  // them, `num_draws` random ones, and the given signs counted as one of them,
-  // so that p is never 0.
+  // Up to this many nonzero differences, all signs are enumerated. Beyond that,
+  // `num_draws` random sign vectors are drawn, and the given signs count as one
+  // of them, so that p is never 0.
   int max_enumerated = 14;
   int num_draws = 10000;
   std::uint64_t seed = 1;
@@ -46,18 +48,18 @@ struct SignFlipOptions {
   bool IsValid(std::string* error) const;
 };
 
-// (2). Options must be valid, differences finite.
+// Equation (2). Options must be valid, differences finite.
 double SignFlipP(const std::vector<double>& differences,
                  const SignFlipOptions& options = {});
 
 struct PairedComparison {
-  long num_pairs = 0;  // Of both methods, with truth and readable.
+  long num_pairs = 0;  // Readable and with a true pose, in both methods.
 
   long num_only_first = 0;   // b
   long num_only_second = 0;  // c
   double success_p = 1.0;
 
-  // Over the pairs of which both have an answer; first less second.
+  // Means over the pairs that both methods answer; first minus second.
   long num_both_answer = 0;
   double mean_translation_difference = 0.0;  // [m]
   double mean_rotation_difference = 0.0;     // [rad]
@@ -65,7 +67,7 @@ struct PairedComparison {
   double rotation_p = 1.0;
 };
 
-// On the pairs that both methods were run on: of the same name, set and bin.
+// Compares the pairs that both methods ran on, matched by name, set and bin.
 PairedComparison ComparePaired(const std::vector<PairResult>& results,
                                const std::string& first_method,
                                const std::string& second_method,

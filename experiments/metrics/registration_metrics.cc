@@ -89,7 +89,7 @@ std::optional<std::vector<SuccessLimit>> ParseLimits(const std::string& text,
     const auto degrees =
         parts.size() == 2 ? ParseFiniteNumber(parts[1]) : std::nullopt;
     if (!translation || !degrees || *translation < 0.0 || *degrees < 0.0) {
-      *error = Quoted(field) + " is no limit, must be like 2/10 [m/deg]";
+      *error = Quoted(field) + " is not a limit, must be like 2/10 [m/deg]";
       return std::nullopt;
     }
     limits.push_back({*translation, *degrees * kDegree});

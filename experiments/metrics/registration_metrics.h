@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How a method did on a set of pairs. With e_i the translation error |t' - t|
-// of pair i [m] and a_i its rotation error, of N pairs,
+// Metrics of a method on a set of pairs. Let e_i be the translation error |t' -
+// t| of pair i [m] and a_i its rotation error. For N pairs,
 //
 //   success at (T, A) = #{i: e_i <= T and a_i <= A} / #{i},                (1)
 //   t_avg = sum e_i / N,   r_avg = sum a_i / N,                            (2)
 //   t_avg as printed = sum e_i^2 / N.                                      (3)
 //
-// The Quatro paper prints (3), which would be square metres; its Table III says
-// metres, so (2) is t_avg here and (3) has its own name. The paper's averages
-// are over all pairs: its 8.341 m and 33.34 deg of RANSAC10K can't come from
-// pairs within 2 m and 10 deg. Both are here, over all and over those that
-// succeed. A pair without an answer fails in (1) and is in no average; where a
-// method may refuse, its averages over all are of what it dared, so read them
-// beside num_answers.
+// The Quatro paper prints (3), which would be in square meters, but its Table
+// III says meters. Here t_avg is (2), and (3) has its own name. The paper's
+// averages are over all pairs: its 8.341 m and 33.34 deg of RANSAC10K cannot
+// come from pairs within 2 m and 10 deg. We compute both, over all pairs and
+// over the successful ones. A pair without an answer fails in (1) and is in no
+// average. If a method may refuse to answer, its averages cover only the pairs
+// that it answered; read them together with num_answers.
 
 #ifndef QUATRO_EXPERIMENTS_METRICS_REGISTRATION_METRICS_H_
 #define QUATRO_EXPERIMENTS_METRICS_REGISTRATION_METRICS_H_
@@ -35,21 +35,21 @@ struct SuccessLimit {
   std::string Name() const;
 };
 
-// 2 m and 10 deg, the paper's; 2 m and 5 deg (kitti_lc); 0.6 m and 5 deg
+// 2 m and 10 deg, from the paper; 2 m and 5 deg (kitti_lc); 0.6 m and 5 deg
 // (kitti_10m).
 std::vector<SuccessLimit> UsualLimits();
 
-// "2/10,0.6/5": metres and degrees. Nullopt with *error set.
+// Parses limits such as "2/10,0.6/5" [m/deg]. Nullopt with *error set.
 std::optional<std::vector<SuccessLimit>> ParseLimits(const std::string& text,
                                                      std::string* error);
 
-// The scans could be read.
+// Returns whether both scans could be read.
 bool IsReadable(const PairResult& result);
 
-// The scans share a place and it is known.
+// Returns whether the scans overlap and the true pose is known.
 bool HasTruth(const PairResult& result);
 
-// Over some pairs with an answer; nullopt where there are none.
+// Averages over pairs with an answer; nullopt if there are none.
 struct ErrorAverages {
   long num_pairs = 0;                            // N
   std::optional<double> translation;             // t_avg (2) [m]
@@ -58,47 +58,48 @@ struct ErrorAverages {
   std::optional<double> translation_as_printed;  // (3) [m^2]
   std::optional<double> median_translation;      // [m]
   std::optional<double> median_rotation;         // [rad]
-  std::optional<Interval> translation_interval;  // Of (2).
+  std::optional<Interval> translation_interval;  // Of t_avg (2).
   std::optional<Interval> rotation_interval;
   std::optional<Interval> median_translation_interval;
   std::optional<Interval> median_rotation_interval;
 };
 
 struct RegistrationMetrics {
-  long num_pairs = 0;       // All that were given.
-  long num_unreadable = 0;  // In none of the numbers below.
-  long num_apart = 0;       // Of scans that share no place.
-  long num_posed = 0;       // With truth: what (1) is a share of.
+  long num_pairs = 0;       // All given pairs.
+  long num_unreadable = 0;  // Not in the numbers below.
+  long num_apart = 0;       // Scans that do not overlap.
+  long num_posed = 0;       // With a true pose: denominator of (1).
 
-  long num_answers = 0;     // Of the posed.
-  long num_registered = 0;  // Of posed and apart.
+  long num_answers = 0;     // Posed pairs with an answer.
+  long num_registered = 0;  // Of the posed and apart pairs.
 
-  // Registered, and beyond the first limit or of scans that share no place.
+  // False registrations: registered, and beyond the first limit or of scans
+  // that do not overlap.
   long num_wrong_registered = 0;
 
-  // For each limit.
+  // One per limit.
   std::vector<long> num_successes;
   std::vector<Interval> success_intervals;
 
   ErrorAverages of_successes;  // Within the first limit.
   ErrorAverages of_all;
 
-  // (1); nullopt if nothing has a truth.
+  // Equation (1); nullopt if no pair has a true pose.
   std::optional<double> SuccessRate(std::size_t limit) const;
 };
 
-// `limits` has at least one. Without `bootstrap` averages have no intervals,
-// which take most of the time.
+// `limits` must not be empty. Without `bootstrap`, averages have no intervals,
+// whose computation takes most of the time.
 RegistrationMetrics ComputeMetrics(
     const std::vector<PairResult>& results,
     const std::vector<SuccessLimit>& limits,
     const std::optional<BootstrapOptions>& bootstrap = BootstrapOptions());
 
-// For each of `grid`, the share of the posed pairs whose error is at most so
-// much [m]; 0 of none.
+// For each error [m] in `grid`, the share of posed pairs whose error is at most
+// this large; 0 if there are no posed pairs.
 std::vector<double> TranslationRecall(const std::vector<PairResult>& results,
                                       const std::vector<double>& grid);
-// [rad]
+// As above, for rotation errors [rad].
 std::vector<double> RotationRecall(const std::vector<PairResult>& results,
                                    const std::vector<double>& grid);
 

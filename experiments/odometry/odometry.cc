@@ -11,22 +11,22 @@
 namespace quatro {
 namespace {
 
-// Fewer points than this are no scan.
+// A scan with fewer points is unusable.
 constexpr Eigen::Index kMinNumPoints = 100;
 
-// No lidar sees farther [m].
+// Larger than the range of any lidar [m].
 constexpr double kMaxCoordinate = 1e4;
 
-// Empty if the scan can be used.
+// Returns an empty string if the scan can be used.
 std::string WhyUnusable(const PointCloud& scan) {
   if (scan.points.cols() < kMinNumPoints) {
     return "the scan has " + std::to_string(scan.points.cols()) +
-           " points, must have " + std::to_string(kMinNumPoints);
+           " points, must have at least " + std::to_string(kMinNumPoints);
   }
   if (!scan.points.allFinite())
     return "the scan has a point that is not finite";
   if (scan.points.cwiseAbs().maxCoeff() > kMaxCoordinate) {
-    return "the scan has a point beyond 10 km of its sensor";
+    return "the scan has a point more than 10 km from its sensor";
   }
   return "";
 }
@@ -53,7 +53,7 @@ const char* StatusName(OdometryStatus status) {
 OdometryStep Odometry::AddScan(const PointCloud& scan) {
   Stopwatch stopwatch;
   OdometryStep step;
-  // The guess, which holds if nothing better is found.
+  // The guess is kept if nothing better is found.
   step.world_from_scan = Normalized(world_from_last_ * last_from_next_);
   step.message = WhyUnusable(scan);
   if (step.message.empty()) {

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Odometry: scans in the order they were taken, a pose for each,
+// Odometry: a pose for each scan, in the order in which the scans were taken,
 //
 //   x_in_world = world_from_scan x_in_scan,   world = the first scan.       (1)
 //
-// A method supplies Track(); what all share is here: the guess from constant
-// velocity, and what happens to a scan that can't be used. Such a scan gets the
-// guess for its pose, is called lost, and the next goes on from there: one bad
-// file does not end a drive. The scans are as of one moment: correcting them
-// for the motion during a turn is up to the caller (KITTI's are).
+// A method supplies Track(). This class handles the common part: the
+// constant-velocity guess and unusable scans. An unusable scan is called lost,
+// and its pose is the guess. The next scan continues from there, so that one
+// bad file does not end a drive. Each scan is treated as taken at one instant;
+// correcting it for the motion during a revolution is up to the caller (KITTI's
+// scans are corrected).
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_ODOMETRY_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_ODOMETRY_H_
@@ -22,7 +23,7 @@
 namespace quatro {
 
 enum class OdometryStatus {
-  kFirst,    // Became the world.
+  kFirst,    // Defines the world frame.
   kTracked,  // Its pose was measured.
   kLost,     // Its pose is the guess; the message says why.
 };
@@ -37,30 +38,31 @@ struct OdometryStep {
   double seconds = 0.0;
 };
 
-// What a method made of a scan.
+// The result of a method for one scan.
 struct TrackResult {
   std::optional<Rigid3> world_from_scan;
   std::string message = "nothing was tried";
 };
 
-// With the rotation nearest to one that products have worn. Left alone the
-// error grows without bound where a guess comes back as an answer: the inverse
-// of a pose is its transpose, so that each guess doubles what is off.
+// Replaces the rotation by the nearest one. Products accumulate rounding
+// errors. Without this, the error grows without bound if the guess becomes the
+// answer: the inverse of a pose uses the transpose, so each guess doubles the
+// error.
 Rigid3 Normalized(const Rigid3& pose);
 
 class Odometry {
  public:
   virtual ~Odometry() = default;
 
-  // For a scan that could not be read: an empty cloud.
+  // Pass an empty cloud for a scan that could not be read.
   OdometryStep AddScan(const PointCloud& scan);
 
  private:
-  // Makes this scan the world, before any was tracked.
+  // Makes this scan the world frame; called before any scan is tracked.
   virtual TrackResult Start(const PointCloud& scan) = 0;
 
-  // The pose of a scan after the first. Without an answer the method must not
-  // have learned from the scan.
+  // Estimates the pose of a scan after the first. If there is no answer, the
+  // method must not have changed its state.
   virtual TrackResult Track(const PointCloud& scan,
                             const Rigid3& world_from_scan_guess) = 0;
 

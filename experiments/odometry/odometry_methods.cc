@@ -49,8 +49,8 @@ std::vector<std::string> OdometryNames() {
 
 std::string DescribeOdometries() {
   return DescribeMethods() +
-         "All but the odometries from each scan to the one before it, icp and "
-         "the like\nfrom constant velocity in place of no motion.\n";
+         "All others register each scan to the previous one; icp and similar\n"
+         "methods start from constant velocity instead of no motion.\n";
 }
 
 std::unique_ptr<Odometry> MakeOdometry(const std::string& name,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The registry of odometries: aloam, suma, and every other method of
-// experiments/programs/methods.h from one scan to the next. Those that start
-// from a guess are given that of constant velocity.
+// experiments/programs/methods.h applied to successive scans. Methods that need
+// an initial guess get the constant-velocity guess.
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_ODOMETRY_METHODS_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_ODOMETRY_METHODS_H_
@@ -18,12 +18,12 @@ namespace quatro {
 
 std::vector<std::string> OdometryNames();
 
-// One line a method, its name and what it does.
+// One line per method with its name and description.
 std::string DescribeOdometries();
 
-// `registration` is for the methods from scan to scan, its num_threads for all.
-// A nullptr, with *error set, for a name that is not known or options out of
-// range.
+// `registration` applies to the scan-to-scan methods, and its num_threads to
+// all. Returns nullptr, with *error set, if the name is unknown or options are
+// out of range.
 std::unique_ptr<Odometry> MakeOdometry(const std::string& name,
                                        const RegistrationOptions& registration,
                                        std::string* error);

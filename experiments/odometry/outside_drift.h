@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Where results come from for the rows of experiments/odometry/table_two.h: a
-// run of ours, or files that other programs left.
+// Results for the rows of experiments/odometry/table_two.h: from a run of ours,
+// or from files that other programs wrote.
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_OUTSIDE_DRIFT_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_OUTSIDE_DRIFT_H_
@@ -21,8 +21,8 @@ struct OutsideResult {
   std::string path;  // KITTI poses.
 };
 
-// "NAME=PATH,NAME=PATH"; empty text is no result. Nullopt with *error set if a
-// part has no name or no path.
+// Parses "NAME=PATH,NAME=PATH"; empty text gives no results. Returns nullopt
+// with *error set if a part has no name or no path.
 std::optional<std::vector<OutsideResult>> ParseOutside(const std::string& text,
                                                        std::string* error);
 

@@ -34,7 +34,7 @@ std::set<int> IntervalsOf(const std::vector<DriftEntry>& entries) {
   return intervals;
 }
 
-// In the order in which they first come.
+// Methods and origins in order of first occurrence.
 std::vector<std::pair<std::string, DriftOrigin>> RowsOf(
     const std::vector<DriftEntry>& entries) {
   std::vector<std::pair<std::string, DriftOrigin>> rows;
@@ -47,7 +47,7 @@ std::vector<std::pair<std::string, DriftOrigin>> RowsOf(
   return rows;
 }
 
-// Null if there is none.
+// Returns null if there is no such entry.
 const DriftEntry* Find(const std::vector<DriftEntry>& entries,
                        const std::string& method,
                        DriftOrigin origin,

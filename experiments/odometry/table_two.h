@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Table II of the Quatro paper: drift of odometries at frame intervals 1, 3 and
-// 5. A row is of one origin, which it names: measured in this run, computed
-// from poses in a file (any program's), or quoted from the paper, where it is
-// of KITTI 00 and of the original programs. A method that is measured or has a
-// file stands beside its quoted row and never takes figures from it.
+// 5. Each row names its origin: measured in this run, computed from poses in a
+// file (of any program), or quoted from the paper, which used KITTI 00 and the
+// original programs. A measured or computed row appears next to the quoted row
+// of the same method and never takes numbers from it.
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_TABLE_TWO_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_TABLE_TWO_H_
@@ -28,18 +28,18 @@ struct DriftEntry {
   double rotation_deg_per_100m = 0.0;
   DriftOrigin origin = DriftOrigin::kMeasured;
 
-  // Only of measured ones.
+  // Set for measured entries only.
   std::optional<int> num_lost;
-  std::optional<double> median_seconds;  // A scan.
+  std::optional<double> median_seconds;  // Per scan.
 };
 
-// The figures of the paper, on KITTI 00.
+// The paper's results on KITTI 00.
 std::vector<DriftEntry> QuotedTableTwo();
 
-// What another program, or this one, left in a file of KITTI poses: one line
-// for each of `frames`, the frames of the run, or one for every frame of the
-// drive. Nullopt and one line in *error otherwise. `true_poses` are those of
-// the drive.
+// Drift of a file of KITTI poses, written by any program: one line for each of
+// `frames`, the frames of the run, or one for every frame of the drive. Returns
+// nullopt and one line in *error otherwise. `true_poses` covers the whole
+// drive.
 std::optional<DriftEntry> DriftOfPoseFile(const std::string& method,
                                           int interval,
                                           const std::string& path,
@@ -47,12 +47,12 @@ std::optional<DriftEntry> DriftOfPoseFile(const std::string& method,
                                           const std::vector<int>& frames,
                                           std::string* error);
 
-// A row a method and origin, in the order in which they first come; a pair of
-// columns an interval.
+// One row per method and origin, in order of first occurrence; two columns per
+// interval.
 Table MakeTableTwo(const std::vector<DriftEntry>& entries);
 
-// The drift alone, as the paper has it, without what depends on the machine;
-// and that in LaTeX.
+// Only the drift, as in the paper, without values that depend on the machine;
+// and the same table in LaTeX.
 Table MakeDriftTable(const std::vector<DriftEntry>& entries);
 std::string FormatTableTwoLatex(const std::vector<DriftEntry>& entries);
 

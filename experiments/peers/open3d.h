@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Open3D's estimators on the same matched points, to compare with and as
-// oracles of tests. Built with -DQUATRO_WITH_OPEN3D=ON alone.
+// Open3D's estimators on the same matched points, for comparison and as test
+// oracles. Built only with -DQUATRO_WITH_OPEN3D=ON.
 //
-// Open3D answers a failure with the identity: here fewer than three matches
-// within the noise bound of its pose are no answer. Its RANSAC draws from one
-// generator of the whole process, in threads of its own number: seeded, and
-// still not the same from run to run on several cores.
+// Open3D returns the identity if it fails. Here a pose with fewer than three
+// inliers is no answer. Its RANSAC draws from one random generator per process,
+// in its own number of threads, so that even with a seed the result varies from
+// run to run on several cores.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_OPEN3D_H_
 #define QUATRO_EXPERIMENTS_PEERS_OPEN3D_H_
@@ -19,16 +19,16 @@
 namespace quatro {
 
 struct Open3dFgrOptions {
-  // False takes the noise bound for the distance [m]; true, Open3D's default,
-  // `distance` times the extent of the clouds.
+  // If false, the distance is the noise bound [m]. If true, Open3D's default,
+  // it is `distance` times the extent of the clouds.
   bool relative_distance = false;
   double distance = 0.025;
   int num_iterations = 64;
-  bool tuple_test = true;  // Of its own, once more.
-  std::uint64_t seed = 0;  // Of the tuple test.
+  bool tuple_test = true;  // Open3D's own, in addition to ours.
+  std::uint64_t seed = 0;  // For the tuple test.
 };
 
-// `noise_bound` [m].
+// `noise_bound` is a radius [m].
 PoseSummary SolveByOpen3dFgr(const PointsRef& source,
                              const PointsRef& target,
                              double noise_bound,
@@ -37,7 +37,7 @@ PoseSummary SolveByOpen3dFgr(const PointsRef& source,
 struct Open3dRansacOptions {
   int max_iterations = 10'000;
   double confidence = 0.999;
-  double edge_similarity = 0.9;  // 0: without the test of edge lengths.
+  double edge_similarity = 0.9;  // 0: no test of edge lengths.
   std::uint64_t seed = 0;
 };
 

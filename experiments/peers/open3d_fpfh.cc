@@ -15,7 +15,7 @@ Fpfh ComputeFpfhByOpen3d(const Points& points,
                          const Points& normals,
                          double radius) {
   CHECK_EQ(points.cols(), normals.cols());
-  if (points.cols() == 0) return {};  // It would throw.
+  if (points.cols() == 0) return {};  // Open3D would throw.
   open3d::utility::SetVerbosityLevel(open3d::utility::VerbosityLevel::Error);
   open3d::geometry::PointCloud cloud;
   for (const auto point : points.colwise()) cloud.points_.emplace_back(point);

@@ -40,7 +40,7 @@ AlignmentSummary AlignByOpen3d(const Points& source,
   AlignmentSummary summary;
   const bool is_gicp = options.method == RefinementMethod::kGicp;
   if (!is_gicp && options.method != RefinementMethod::kIcp) {
-    summary.message = "Open3D has ICP and G-ICP alone";
+    summary.message = "Open3D only has ICP and G-ICP";
     return summary;
   }
   if (!CanAlign(source, target, alignment, &summary)) return summary;
@@ -75,11 +75,12 @@ AlignmentSummary AlignByOpen3d(const Points& source,
       static_cast<Eigen::Index>(result.correspondence_set_.size());
   if (summary.num_inliers < kNumNeeded || !result.transformation_.allFinite()) {
     summary.termination = AlignmentTermination::kInsufficient;
-    summary.message = "Open3D ended where fewer than three points correspond";
+    summary.message =
+        "Open3D ended at a pose with fewer than three correspondences";
     return summary;
   }
   summary.termination = AlignmentTermination::kNotConverged;
-  summary.message = "Open3D ended, converged or not";
+  summary.message = "Open3D stopped (it does not report whether it converged)";
   summary.target_from_source =
       Rigid3{result.transformation_.topLeftCorner<3, 3>(),
              result.transformation_.topRightCorner<3, 1>()};

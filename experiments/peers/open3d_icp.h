@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Open3D's ICP and G-ICP on the same points, to compare with and as oracles of
-// tests. Built with -DQUATRO_WITH_OPEN3D=ON alone.
+// Open3D's ICP and G-ICP on the same points, for comparison and as test
+// oracles. Built only with -DQUATRO_WITH_OPEN3D=ON.
 //
-// The same problem as ours (solvers/local/icp.h, gicp.h) but for how it stops:
-// once neither the share of points that correspond nor their mean distance
-// changes by more than 1e-6 of itself. It does not tell whether it did. Normals
-// of G-ICP are its own, of 20 neighbours.
+// The problem is the same as ours (solvers/local/icp.h, gicp.h), but the
+// stopping criterion differs: it stops once neither the share of
+// correspondences nor their mean distance changes by more than a relative 1e-6.
+// Open3D does not report whether it converged. Its G-ICP computes its own
+// normals from 20 neighbors.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_OPEN3D_ICP_H_
 #define QUATRO_EXPERIMENTS_PEERS_OPEN3D_ICP_H_
@@ -18,9 +19,9 @@
 
 namespace quatro {
 
-// Of the options takes the method, kIcp or kGicp, epsilon, the distance of
-// correspondents and the number of iterations. An answer is kNotConverged. Of
-// the summary sets the pose, the number of inliers, termination and message.
+// Uses these options: method (kIcp or kGicp), epsilon, correspondence distance
+// and number of iterations. The termination of an answer is kNotConverged. Sets
+// pose, number of inliers, termination and message of the summary.
 AlignmentSummary AlignByOpen3d(const Points& source,
                                const Points& target,
                                const Rigid3& initial_target_from_source,

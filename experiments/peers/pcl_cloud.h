@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Points and poses of PCL, which keeps both in single precision: of points
-// about an origin near them.
+// Conversions to and from PCL, which uses single precision. Points are
+// therefore stored relative to a nearby origin.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_PCL_CLOUD_H_
 #define QUATRO_EXPERIMENTS_PEERS_PCL_CLOUD_H_
@@ -28,7 +28,8 @@ inline PclCloud::Ptr ToPclCloud(const PointsRef& points,
   return cloud;
 }
 
-// Of a matrix between points about `origin`, the motion of those themselves.
+// Converts a matrix between points relative to `origin` to a motion of the
+// points themselves.
 inline Rigid3 FromPclMatrix(const Eigen::Matrix4f& matrix,
                             const Eigen::Vector3d& origin) {
   const Eigen::Matrix3d block = matrix.topLeftCorner<3, 3>().cast<double>();

@@ -20,7 +20,7 @@ namespace {
 constexpr int kNumNeighbors = 20;
 constexpr Eigen::Index kNumNeeded = 3;
 
-// PCL says "converged" of one that ran out of iterations.
+// PCL reports "converged" even if it ran out of iterations.
 template <typename Base>
 struct Counting : Base {
   bool RanOut() const { return this->nr_iterations_ >= this->max_iterations_; }
@@ -30,7 +30,7 @@ struct Icp
     : Counting<pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ>> {
   explicit Icp(const RefinementOptions& options) {
     const double move = options.alignment.translation_tolerance;
-    setTransformationEpsilon(move * move);  // Of the squared length.
+    setTransformationEpsilon(move * move);  // PCL compares squared lengths.
     setTransformationRotationEpsilon(
         std::cos(options.alignment.rotation_tolerance));
   }
@@ -77,7 +77,8 @@ void Solve(const Points& source,
   const Eigen::Matrix4f matrix = method.getFinalTransformation();
   const Rigid3 pose = FromPclMatrix(matrix, origin);
   summary->termination = AlignmentTermination::kInsufficient;
-  summary->message = "PCL ended where fewer than three points correspond";
+  summary->message =
+      "PCL ended at a pose with fewer than three correspondences";
   if (!method.hasConverged() || !matrix.allFinite()) return;
   summary->num_inliers = CountWithin(max_distance, pose.Apply(source), target);
   if (summary->num_inliers < kNumNeeded) return;
@@ -96,13 +97,13 @@ AlignmentSummary AlignByPcl(const Points& source,
   AlignmentSummary summary;
   const bool is_gicp = options.method == RefinementMethod::kGicp;
   if (!is_gicp && options.method != RefinementMethod::kIcp) {
-    summary.message = "PCL has ICP and G-ICP alone";
+    summary.message = "PCL only has ICP and G-ICP";
     return summary;
   }
   if (!CanAlign(source, target, options.alignment, &summary)) return summary;
   if (is_gicp && source.cols() < kNumNeighbors) {
     summary.termination = AlignmentTermination::kInsufficient;
-    summary.message = "PCL's G-ICP needs 20 points";
+    summary.message = "PCL's G-ICP needs at least 20 points";
     return summary;
   }
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);

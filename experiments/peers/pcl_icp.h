@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// PCL's ICP and G-ICP on the same points, to compare with and as oracles of
-// tests. Built with -DQUATRO_WITH_PCL=ON alone.
+// PCL's ICP and G-ICP on the same points, for comparison and as test oracles.
+// Built only with -DQUATRO_WITH_PCL=ON.
 //
-// PCL keeps points in single precision: they are given about the target's mean.
-// It stops on steps of its transform, 1e-3 m and 1e-4 rad as ours by default.
-// Its G-ICP minimizes by BFGS, and takes covariances of 20 neighbours.
+// PCL uses single precision, so points are passed relative to the target's
+// mean. It stops when its transform changes by less than 1e-3 m and 1e-4 rad,
+// as ours by default. Its G-ICP minimizes with BFGS and computes covariances
+// from 20 neighbors.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_PCL_ICP_H_
 #define QUATRO_EXPERIMENTS_PEERS_PCL_ICP_H_
@@ -17,9 +18,9 @@
 
 namespace quatro {
 
-// Of the options takes the method, kIcp or kGicp, the distance of
-// correspondents, tolerances and the number of iterations. Of the summary sets
-// the pose, the number of inliers, termination and message.
+// Uses these options: method (kIcp or kGicp), correspondence distance,
+// tolerances and number of iterations. Sets pose, number of inliers,
+// termination and message of the summary.
 AlignmentSummary AlignByPcl(const Points& source,
                             const Points& target,
                             const Rigid3& initial_target_from_source,

@@ -15,7 +15,7 @@
 namespace quatro {
 namespace {
 
-// Its own seed is always the same.
+// Sets a seed, because PCL's own seed is always the same.
 struct Model : pcl::SampleConsensusModelRegistration<pcl::PointXYZ> {
   Model(const PclCloud::ConstPtr& source,
         const PclCloud::ConstPtr& target,
@@ -30,7 +30,7 @@ Rigid3 Solve(const PointsRef& source,
              const PointsRef& target,
              double noise_bound,
              const PclRansacOptions& options) {
-  // Of the target, so that a large offset of both costs no digits.
+  // The mean of the target, so that a large common offset costs no digits.
   const Eigen::Vector3d origin = target.rowwise().mean();
   const pcl::shared_ptr<Model> model(new Model(
       ToPclCloud(source, origin), ToPclCloud(target, origin), options.seed));

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// PCL's RANSAC on the same matched points, to compare with. Built with
-// -DQUATRO_WITH_PCL=ON alone. PCL has no FGR.
+// PCL's RANSAC on the same matched points, for comparison. Built only with
+// -DQUATRO_WITH_PCL=ON. PCL has no FGR.
 //
-// Samples of three points, refused if two are closer than the cloud's mean
-// standard deviation; the count of inliers decides; the pose is of least
-// squares over the inliers of the best sample, once.
+// Samples have three points and are rejected if two of them are closer than the
+// cloud's mean standard deviation. The sample with the most inliers wins; the
+// pose is one least-squares fit to its inliers.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_PCL_RANSAC_H_
 #define QUATRO_EXPERIMENTS_PEERS_PCL_RANSAC_H_
@@ -23,7 +23,7 @@ struct PclRansacOptions {
   std::uint64_t seed = 0;
 };
 
-// `noise_bound` [m].
+// `noise_bound` is a radius [m].
 PoseSummary SolveByPclRansac(const PointsRef& source,
                              const PointsRef& target,
                              double noise_bound,

@@ -26,7 +26,7 @@ PoseSummary SolveByPeer(const PointsRef& source,
     return summary;
   }
   summary.termination = PoseTermination::kInsufficient;
-  summary.message = library + " found no pose that three matches agree with";
+  summary.message = library + " found no pose with at least three inliers";
   if (source.cols() < kNumNeeded) return summary;
   Stopwatch stopwatch;
   Rigid3 pose;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What the pose of a peer is worth by our measure. Other libraries say little
-// of their answer, and give the identity for a failure: here a pose that fewer
-// than three matches agree with is no answer.
+// Evaluates the pose of another library by our criteria. Other libraries report
+// little about their answer and return the identity if they fail. Here a pose
+// with fewer than three inliers is no answer.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_PEER_SUMMARY_H_
 #define QUATRO_EXPERIMENTS_PEERS_PEER_SUMMARY_H_
@@ -16,9 +16,9 @@
 
 namespace quatro {
 
-// Calls `solve` for target_from_source, if there are three finite matches, and
-// counts those within the noise bound [m]. `library` is for messages, `stage`
-// for the time. An exception of the library is no answer.
+// Calls `solve` for target_from_source if there are at least three finite
+// matches, and counts the matches within the noise bound [m]. `library` is used
+// in messages, `stage` for the time. An exception of the library is no answer.
 PoseSummary SolveByPeer(const PointsRef& source,
                         const PointsRef& target,
                         double noise_bound,

@@ -24,7 +24,8 @@ constexpr double kUnitTolerance = 1e-3;
 int NumPoseValues(int dimension) { return dimension == 2 ? 3 : 7; }
 int NumFreedoms(int dimension) { return dimension == 2 ? 3 : 6; }
 
-// Reads words of one line; the first trouble is kept and ends all reading.
+// Reads the words of one line. The first problem is kept and stops further
+// reading.
 class LineReader {
  public:
   LineReader(std::string_view line, std::string* problem)
@@ -88,7 +89,8 @@ class LineReader {
 
   void End() {
     const std::string_view word = TakeWord(&line_);
-    if (!word.empty()) Refuse("has more than expected: " + Quoted(word));
+    if (!word.empty())
+      Refuse("has unexpected text at its end: " + Quoted(word));
   }
 
   void Refuse(const std::string& why) {
@@ -100,7 +102,7 @@ class LineReader {
   std::string* problem_;
 };
 
-// Ids of what a line names, found once all poses are known.
+// The ids that a line names, resolved once all poses are known.
 struct Reference {
   int line_number;
   std::int64_t from, to;
@@ -150,7 +152,7 @@ class G2oReader {
       const std::int64_t id = reader.Id("pose");
       const Rigid3 pose = reader.Pose(graph_.dimension);
       if (!index_.emplace(id, graph_.ids.size()).second) {
-        reader.Refuse("pose " + std::to_string(id) + " is there already");
+        reader.Refuse("pose " + std::to_string(id) + " was defined before");
       }
       graph_.ids.push_back(id);
       graph_.world_from_pose.push_back(pose);
@@ -165,7 +167,7 @@ class G2oReader {
       edge.information = reader.Information(graph_.dimension);
       graph_.edges.push_back(std::move(edge));
     } else {
-      reader.Refuse(Quoted(tag) + " is not known");
+      reader.Refuse(Quoted(tag) + " is not a known tag");
     }
     reader.End();
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Pose graphs as text in the format of g2o, a line each of
+// Pose graphs as text in the format of g2o, with lines
 //
 //   VERTEX_SE2 id x y yaw
 //   EDGE_SE2 from to x y yaw  I11 I12 I13 I22 I23 I33
@@ -8,10 +8,10 @@
 //   EDGE_SE3:QUAT from to x y z qx qy qz qw  I11 I12 ... I16 I22 ... I66
 //   FIX id
 //
-// in any order, the information by its upper triangle. Empty lines and those
-// that start with # are passed over. The information of EDGE_SE3:QUAT is taken
-// over the rotation vector [rad], as GTSAM and Ceres' example do; g2o itself
-// takes it over half of that.
+// in any order, where I is the upper triangle of the information matrix. Empty
+// lines and lines that start with # are ignored. The information of
+// EDGE_SE3:QUAT refers to the rotation vector [rad], as in GTSAM and the
+// example of Ceres; in g2o itself it refers to half of that.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_G2O_H_
 #define QUATRO_EXPERIMENTS_POSE_GRAPHS_G2O_H_
@@ -23,13 +23,14 @@
 
 namespace quatro {
 
-// Nullopt, with file, line and reason in *error, for any other line, a number
-// that is not finite, a quaternion farther than 1e-3 from unit length, an
-// information that is not positive definite, an id that is used twice or not at
-// all, a file with both dimensions or without poses.
+// Returns nullopt, with file, line and reason in *error, if a line has any
+// other form, a number is not finite, a quaternion is farther than 1e-3 from
+// unit length, an information matrix is not positive definite, an id is used
+// twice or undefined, or the file mixes both dimensions or has no poses.
 std::optional<PoseGraph> ReadG2o(const std::string& path, std::string* error);
 
-// Every number of the information, and of translations, comes back bit for bit.
+// Reading the text back recovers every number of the information and the
+// translations bit for bit.
 std::string FormatG2o(const PoseGraph& graph);
 
 }  // namespace quatro

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Poses and what was measured between them, in the plane or in space.
+// Poses and relative measurements between them, in the plane or in space.
 //
-// An edge says where `to` was seen from `from`,
+// An edge is a measurement of the pose `to` in the frame of the pose `from`,
 //
 //   from_from_to = world_from_pose[from]^-1 world_from_pose[to] + noise,    (1)
 //
-// the noise with covariance information^-1 over (x, y, yaw) or
-// (x, y, z, rotation vector) [m, rad]. In the plane all rotations are about z
-// and all z are 0.
+// where the noise has covariance information^-1 over (x, y, yaw) or (x, y, z,
+// rotation vector) [m, rad]. In the plane, all rotations are about z and all z
+// are 0.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_H_
 #define QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_H_
@@ -24,7 +24,7 @@
 
 namespace quatro {
 
-// Of noise, so that information can be reckoned with and written down.
+// Limits of the noise, so that the information can be computed and written.
 inline constexpr double kMinSigma = 1e-6;      // [m] and [deg]
 inline constexpr double kMaxSigmaM = 1e6;      // [m]
 inline constexpr double kMaxSigmaDeg = 180.0;  // [deg]
@@ -35,20 +35,20 @@ struct PoseEdge {
   Rigid3 from_from_to;
   Eigen::MatrixXd information;  // 3 x 3 or 6 x 6, positive definite.
 
-  // Between poses that follow each other; the others are loops.
+  // Edges between consecutive poses are odometry; all others are loop closures.
   bool IsOdometry() const { return to == from + 1; }
 };
 
 struct PoseGraph {
   int dimension = 3;              // 2 or 3.
-  std::vector<std::int64_t> ids;  // Of the poses, as in the file.
+  std::vector<std::int64_t> ids;  // Pose ids, as in the file.
   std::vector<Rigid3> world_from_pose;
   std::vector<PoseEdge> edges;
-  std::vector<std::size_t> fixed;  // Poses that don't move.
+  std::vector<std::size_t> fixed;  // Poses that are kept constant.
 };
 
-// Poses by the odometry alone, from the first one on; those that no odometry
-// reaches stay.
+// Computes the poses from the odometry alone, starting at the first pose. Poses
+// that no odometry reaches stay as they are.
 inline void ChainOdometry(PoseGraph* graph) {
   std::vector<const PoseEdge*> last(graph->world_from_pose.size(), nullptr);
   for (const PoseEdge& edge : graph->edges) {
@@ -61,8 +61,9 @@ inline void ChainOdometry(PoseGraph* graph) {
   }
 }
 
-// The first pose of each part of the graph that edges with weight hold
-// together. Fixed poses are of one part, as the world holds them.
+// The first pose of each connected component, over the edges with nonzero
+// weight. All fixed poses belong to one component, because the world connects
+// them.
 inline std::vector<std::size_t> FirstOfParts(
     const PoseGraph& graph, const std::vector<double>& weights) {
   std::vector<std::size_t> parents(graph.world_from_pose.size());

@@ -15,7 +15,7 @@
 namespace quatro {
 namespace {
 
-// The left factor L of L L^T would give e^T L^T L e; U = L^T is the right one.
+// U = L^T, because L of L L^T itself would give e^T L^T L e.
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& information) {
   return information.llt().matrixU();
 }
@@ -65,7 +65,7 @@ struct SpatialEdge {
         Eigen::Map<const Vector3<T>>(t_j) - Eigen::Map<const Vector3<T>>(t_i);
     Quaternion turn = rotation.conjugate().template cast<T>() *
                       (i_from_world * Eigen::Map<const Quaternion>(r_j));
-    // q and -q are one rotation; the nearer one counts.
+    // q and -q are the same rotation; the smaller angle is used.
     const T two = turn.w() < T{0.0} ? T{-2.0} : T{2.0};
     Eigen::Matrix<T, 6, 1> error;
     error.template head<3>() =
@@ -110,8 +110,8 @@ ceres::LossFunction* MakeLoss(LoopLoss loss, double bound) {
   return nullptr;
 }
 
-// What re-weighted least squares would give to an edge at the answer: the slope
-// of its loss at the squared residual.
+// The weight that iteratively reweighted least squares would give an edge at
+// the solution: the derivative of its loss at the squared residual.
 double LossWeight(const ceres::Problem& problem, ceres::ResidualBlockId id) {
   const ceres::LossFunction* loss = problem.GetLossFunctionForResidualBlock(id);
   if (loss == nullptr) return 1.0;
@@ -153,7 +153,7 @@ PoseGraphProblem::PoseGraphProblem(const PoseGraph& graph,
   const int n = graph.dimension;
   const double bound =
       ChiSquareBound(options.inlier_probability, n == 2 ? 3 : 6);
-  ceres::Manifold* manifold = nullptr;  // One for all; problem_ owns it.
+  ceres::Manifold* manifold = nullptr;  // Shared by all; problem_ owns it.
   if (n == 2) {
     manifold = new UnitCircleManifold;
   } else {

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A pose graph as a ceres::Problem: a residual block an edge, whitened,
+// A pose graph as a ceres::Problem, with one whitened residual block per edge,
 //
 //   r = U (R_i^T (t_j - t_i) - t_ij,  log(R_ij^T R_i^T R_j)),
 //   U^T U = information, so that |r|^2 = e^T information e,                 (1)
 //
-// in space with the logarithm as 2 vec(q), as Ceres' own example has it. A pose
-// is two parameter blocks, a rotation on its manifold (the unit circle in the
-// plane, unit quaternions in space) and a translation. Where the graph fixes no
-// pose the first one is.
+// In space the logarithm is 2 vec(q), as in the example of Ceres. A pose has
+// two parameter blocks: a rotation on its manifold (the unit circle in the
+// plane, unit quaternions in space) and a translation. If the graph fixes no
+// pose, the first one is fixed.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_PROBLEM_H_
 #define QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_PROBLEM_H_
@@ -25,18 +25,18 @@
 
 namespace quatro {
 
-// What is done about loops that may be wrong. kGnc and the losses of Ceres have
+// The treatment of loops that may be outliers. kGnc and the losses of Ceres use
 // the same bound, by chi-square.
 enum class LoopLoss { kGnc, kNone, kHuber, kCauchy, kTukey };
 
-// none, gnc, huber, cauchy or tukey.
+// Parses none, gnc, huber, cauchy or tukey.
 std::optional<LoopLoss> ParseLoopLoss(const std::string& name);
 
 struct PoseGraphOptions {
   LoopLoss loss = LoopLoss::kGnc;
 
-  // The share of right loops that the bound lets by. Near one, as losing a
-  // right loop costs more than the doubtful wrong one that gets in.
+  // The probability that an inlier loop passes the bound. Close to one, because
+  // losing an inlier loop costs more than accepting a borderline outlier.
   double inlier_probability = 0.999999;
 
   GncOptions gnc;
@@ -48,10 +48,11 @@ struct PoseGraphOptions {
 struct PoseGraphSummary {
   bool is_usable = false;
   std::string report;  // One line.
-  // By edge: GNC's, or the slope of the loss at the answer; 1 where nothing is
-  // weighted. An edge at 0 does not hold the answer.
+  // The weight per edge: GNC's, or the derivative of the loss at the solution;
+  // 1 if nothing is weighted. An edge with weight 0 does not affect the
+  // solution.
   std::vector<double> weights;
-  CeresGncSummary gnc;  // Of LoopLoss::kGnc.
+  CeresGncSummary gnc;  // For LoopLoss::kGnc only.
   double seconds = 0.0;
 };
 
@@ -61,21 +62,21 @@ class PoseGraphProblem {
   PoseGraphProblem(const PoseGraph& graph, const PoseGraphOptions& options);
 
   ceres::Problem& problem() { return problem_; }
-  // Of each edge.
+  // The residual block of each edge.
   const std::vector<ceres::ResidualBlockId>& ids() const { return ids_; }
 
   std::vector<Rigid3> WorldFromPose() const;
 
  private:
   const PoseGraph& graph_;
-  std::vector<std::array<double, 4>> rotations_;  // The circle has two.
+  std::vector<std::array<double, 4>> rotations_;  // The circle uses two.
   std::vector<std::array<double, 3>> translations_;
   std::vector<ceres::ResidualBlockId> ids_;
   ceres::Problem problem_;
 };
 
-// From the graph's poses; they become the answer unless it is not usable.
-// Odometry is taken as right.
+// Starts from the graph's poses and replaces them by the solution if it is
+// usable. Odometry edges are assumed to be inliers.
 PoseGraphSummary SolvePoseGraph(const PoseGraphOptions& options,
                                 PoseGraph* graph);
 

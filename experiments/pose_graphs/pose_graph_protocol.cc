@@ -22,7 +22,7 @@ constexpr std::array<const char*, 5> kLosses = {
 struct Tally {
   int num_right = 0;
   int num_equal = 0;
-  int num_rejected_all = 0;    // Every wrong loop at weight 0, right ones not.
+  int num_rejected_all = 0;    // Exactly the outliers have weight 0.
   std::vector<double> errors;  // [m]
   std::vector<double> seconds;
 };
@@ -72,7 +72,7 @@ Table RunWrongLoopProtocol(int num_seeds,
                    "wrong_share",
                    "loss",
                    "runs",
-                   "right",
+                   "correct",
                    "equal",
                    "rejected",
                    "median_error_m",

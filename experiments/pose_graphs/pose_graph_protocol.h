@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How pose graphs stand wrong loops: GNC beside the robust losses of Ceres, all
-// from the same start, on the worlds of
+// Robustness of pose graphs to outlier loops: GNC and the robust losses of
+// Ceres, all from the same start, on the worlds of
 // experiments/pose_graphs/pose_graph_worlds.h.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_PROTOCOL_H_
@@ -15,8 +15,8 @@
 
 namespace quatro {
 
-// The largest distance between the positions of two solutions [m], and angle
-// between their rotations [rad].
+// The largest distance between the positions of two solutions [m] and the
+// largest angle between their rotations [rad].
 struct PoseDifference {
   double translation = 0.0;
   double rotation = 0.0;
@@ -24,10 +24,10 @@ struct PoseDifference {
 PoseDifference LargestDifference(const std::vector<Rigid3>& a,
                                  const std::vector<Rigid3>& b);
 
-// Both worlds, wrong shares of 10 to 90 %, every loss. A run is right if no
-// pose is more than 0.1 m from the least-squares answer without wrong loops,
-// equal if none is more than 1e-6 m and rad. Sizes and noise from `world`,
-// seeds from 0.
+// Runs both worlds, outlier shares of 10 to 90 %, and every loss. A run is
+// correct if no pose is more than 0.1 m from the least-squares solution without
+// outliers, and equal if no pose differs by more than 1e-6 m and rad. Sizes and
+// noise come from `world`, seeds start at 0.
 Table RunWrongLoopProtocol(int num_seeds,
                            const GraphWorldOptions& world,
                            const PoseGraphOptions& options,

@@ -19,7 +19,7 @@ using Pair = std::pair<std::size_t, std::size_t>;
 
 constexpr double kStep = 1.0;          // [m]
 constexpr double kStreet = 5.0;        // [m], between crossings.
-constexpr double kMinWrong = 0.4;      // [m], from the truth.
+constexpr double kMinWrong = 0.4;      // [m], from the true position.
 constexpr double kLoopRange = 1.5;     // [m]
 constexpr std::size_t kMinApart = 20;  // Steps between the ends of a loop.
 
@@ -40,8 +40,8 @@ Eigen::Matrix3d Exp(const Eigen::Vector3d& rotation) {
   return Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
 }
 
-// Straight on, left or right at each crossing, and back into the square where
-// it would leave it. The square is small enough to come by again.
+// Goes straight, left or right at each crossing, and turns back where it would
+// leave the square. The square is small enough for revisits.
 std::vector<Rigid3> WalkManhattan(int num_poses, Random* random) {
   const double half =
       kStreet * std::max(1.0, std::round(std::sqrt(num_poses) / 8.0));
@@ -76,7 +76,7 @@ int PosesPerTurn(int num_poses) {
   return std::max(8, static_cast<int>(std::round(std::sqrt(num_poses))));
 }
 
-// From pole to pole, x ahead and z outward.
+// From pole to pole, with x ahead and z outward.
 std::vector<Rigid3> WalkSphere(int num_poses) {
   const int per_turn = PosesPerTurn(num_poses);
   const double radius = kStep * per_turn / (2.0 * M_PI);
@@ -125,7 +125,7 @@ std::vector<Pair> PairsOnTurns(int num_poses) {
   return pairs;
 }
 
-// The first `count` of a random order.
+// Keeps the first `count` pairs of a random order.
 void Draw(std::size_t count, Random* random, std::vector<Pair>* pairs) {
   for (std::size_t i = 0; i < count; ++i) {
     std::swap((*pairs)[i], (*pairs)[i + random->Below(pairs->size() - i)]);
@@ -133,7 +133,7 @@ void Draw(std::size_t count, Random* random, std::vector<Pair>* pairs) {
   pairs->resize(count);
 }
 
-// Adds edges to a world whose true poses are known.
+// Adds edges to a world with known true poses.
 class EdgeMaker {
  public:
   EdgeMaker(const GraphWorldOptions& options, GraphWorld* world, Random* random)
@@ -257,7 +257,7 @@ std::optional<GraphWorld> MakeGraphWorld(const GraphWorldOptions& options,
   if (pairs.size() < num_right) {
     *error = "loops = " + std::to_string(options.num_loops) +
              ", but the walk has " + std::to_string(pairs.size()) +
-             " pairs of poses for right ones";
+             " pairs of poses for inlier loops";
     return std::nullopt;
   }
   Draw(num_right, &random, &pairs);

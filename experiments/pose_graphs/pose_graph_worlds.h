@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Pose graphs with known answers, by seed.
+// Generated pose graphs with known true poses, by seed.
 //
 //   manhattan  a walk of 1 m steps on a grid of streets 5 m apart, in the
 //              plane; loops between poses within 1.5 m of each other
 //   sphere     a spiral of 1 m steps on a sphere, in space; loops between
-//              neighbours on turns that follow each other
+//              neighbors on successive turns of the spiral
 //
-// Measurements are normal about the truth. A wrong loop is between two poses
-// drawn at random and says that they are within 1 m of each other, at any
-// heading, and is more than 0.4 m from the truth.
+// Measurements are the true values with normal noise. An outlier loop is
+// between two randomly drawn poses. Its measurement places them within 1 m of
+// each other, at any heading, and more than 0.4 m from their true relative
+// position.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_WORLDS_H_
 #define QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_WORLDS_H_
@@ -26,10 +27,10 @@ namespace quatro {
 struct GraphWorldOptions {
   std::string world = "manhattan";  // Or sphere.
   int num_poses = 400;
-  int num_loops = 200;       // Right and wrong together.
-  double wrong_share = 0.5;  // Of the loops.
+  int num_loops = 200;       // Inliers and outliers together.
+  double wrong_share = 0.5;  // Share of outliers among loops.
 
-  // Wrong loops join poses that are this many steps apart at most; 0: any.
+  // Outlier loops join poses at most this many steps apart; 0: no limit.
   int max_wrong_steps = 0;
 
   double translation_sigma = 0.02;  // [m], on each axis.
@@ -41,17 +42,17 @@ struct GraphWorldOptions {
 };
 
 struct GraphWorld {
-  PoseGraph graph;  // Poses by the odometry alone; the first is fixed.
+  PoseGraph graph;  // Poses from odometry; the first is fixed.
   std::vector<Rigid3> true_world_from_pose;
-  std::vector<bool> is_wrong;  // By edge.
+  std::vector<bool> is_wrong;  // Per edge: an outlier.
 };
 
-// Nullopt if the options are not valid, or the walk has fewer pairs of poses
-// for right loops than are asked for; *error says so.
+// Returns nullopt with *error set if the options are invalid, or if the walk
+// has fewer pairs of poses for inlier loops than requested.
 std::optional<GraphWorld> MakeGraphWorld(const GraphWorldOptions& options,
                                          std::string* error);
 
-// The same graph without the wrong loops, poses as they are.
+// The same graph without the outlier loops, with unchanged poses.
 PoseGraph WithoutWrongLoops(const GraphWorld& world);
 
 }  // namespace quatro

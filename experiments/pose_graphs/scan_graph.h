@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Many scans as one pose graph: every pair that odometry does not join is
-// registered, and what comes of it, vouched for or not, is a loop that may be
-// wrong. GNC (robust/gnc/ceres_gnc.h) decides which agree with each other and
-// with the odometry.
+// Combines many scans into one pose graph. Every pair that odometry does not
+// join is registered. Its pose, whether or not it is registered, becomes a loop
+// that may be an outlier. GNC (robust/gnc/ceres_gnc.h) decides which loops are
+// consistent with each other and with the odometry.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_SCAN_GRAPH_H_
 #define QUATRO_EXPERIMENTS_POSE_GRAPHS_SCAN_GRAPH_H_
@@ -25,22 +25,22 @@ struct ScanPair {
   std::size_t from = 0;
   std::size_t to = 0;
   Verdict verdict;
-  std::optional<Rigid3> from_from_to;  // Nothing if there is no answer at all.
+  std::optional<Rigid3> from_from_to;  // Nullopt if there is no pose.
 };
 
-// All pairs with to > from + 1, in order. `progress` is called with the pairs
-// done so far and in all.
+// Registers all pairs with to > from + 1, in order. `progress` is called with
+// the number of pairs done and the total.
 std::vector<ScanPair> RegisterPairs(
     const std::vector<PointCloud>& scans,
     const RegistrationOptions& options,
     const std::function<void(int, int)>& progress);
 
-// Independent and the same on each axis.
+// Independent noise with equal variance on each axis.
 Eigen::MatrixXd DiagonalInformation(double translation_sigma,  // [m]
                                     double rotation_sigma);    // [rad]
 
-// An edge for each pair with an answer. The graph is in space and has a pose
-// for each scan.
+// Adds an edge for each pair with a pose. The graph must be in space and have a
+// pose for each scan.
 void AddLoops(const std::vector<ScanPair>& pairs,
               const Eigen::MatrixXd& information,
               PoseGraph* graph);

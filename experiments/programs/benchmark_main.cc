@@ -25,29 +25,32 @@
 #include "features/voxel_grid.h"
 #include "robust/registration/presets.h"
 
-DEFINE_string(source, "", "Cloud to move: .bin (KITTI), .ply or .pcd");
-DEFINE_string(target, "", "Cloud to move it onto. Neither: a simulated street");
-DEFINE_string(preset, "kitti", "As of quatro_register");
+DEFINE_string(source,
+              "",
+              "Source cloud, the one to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(target,
+              "",
+              "Target cloud; without source and target: a simulated street");
+DEFINE_string(preset, "kitti", "Preset, as in quatro_register");
 DEFINE_string(sizes,
               "1000,3000,10000,30000,50000,100000,300000,1000000",
-              "Numbers of matches for estimators; with a graph up to 50000");
-DEFINE_int32(threads, 1, "0: one per core; of all but those named with theirs");
+              "Numbers of matches for the estimators; graphs up to 50000");
+DEFINE_int32(threads, 1, "Threads, unless a name states them; 0: one per core");
 
 namespace {
 
 constexpr char kUsage[] =
-    "measures every stage, against other libraries that are built in and "
-    "limits\n"
-    "of the machine.\n"
+    "measures the time of every stage, of other libraries that are built in,\n"
+    "and of the best the machine can do.\n"
     "\n"
     "  quatro_benchmark --source=a.bin --target=b.bin --benchmark_out=ab.json\n"
     "  experiments/scripts/tabulate_benchmark.py ab.json\n"
     "\n"
-    "Names are stage/who[/case]. Flags --benchmark_... are Google Benchmark's: "
-    "\n"
+    "Names are stage/who[/case]. Google Benchmark provides the flags\n"
+    "--benchmark_...: "
     "_filter=REGEX, _min_time=SECONDS, _repetitions=N, _out=FILE (JSON),\n"
     "_list_tests.\n"
-    "Exits with 0 when done; 2 if a flag or a file is wrong.";
+    "Exits with 0 when done; 2 if a flag or a file is invalid.";
 
 constexpr int kMaxSize = 10'000'000;
 constexpr int kMaxRepetitions = 100'000;
@@ -57,8 +60,8 @@ bool IsOfBenchmark(std::string_view arg) {
   return begin != arg.npos && arg.substr(begin).starts_with("benchmark_");
 }
 
-// The value of --benchmark_`name`=..., the last as it counts; empty without
-// one.
+// Returns the value of the last --benchmark_`name`=..., which takes precedence;
+// empty if it is not given.
 std::string BenchmarkFlag(const std::vector<std::string>& args,
                           const std::string& name) {
   std::string value;
@@ -72,7 +75,7 @@ std::string BenchmarkFlag(const std::vector<std::string>& args,
   return value;
 }
 
-// Those that Google Benchmark would answer otherwise than we do.
+// Checks the flags that Google Benchmark would handle differently from us.
 bool AreValid(const std::vector<std::string>& args, std::string* error) {
   const std::string min_time = BenchmarkFlag(args, "min_time");
   const auto seconds = quatro::ParseFiniteNumber(min_time);
@@ -115,7 +118,7 @@ std::optional<std::vector<int>> ParseSizes(std::string* error) {
   return sizes;
 }
 
-// Whether a pair of files can be registered at all.
+// Returns whether two files can be registered at all.
 bool CanUse(const std::string& path,
             const quatro::PointCloud& cloud,
             double voxel_size,
@@ -169,11 +172,11 @@ int Main(int argc, char** argv) {
   if (!sizes) return Fail(error);
   if (!AreValid(their_args, &error)) return Fail(error);
   auto options = quatro::MakePreset(FLAGS_preset);
-  if (!options) return Fail("--preset=" + FLAGS_preset + ": there is none");
+  if (!options) return Fail("--preset=" + FLAGS_preset + " is not a preset");
   options->num_threads = FLAGS_threads;
   if (!options->IsValid(&error)) return Fail(error);
   if (FLAGS_source.empty() != FLAGS_target.empty()) {
-    return Fail("--source and --target go together");
+    return Fail("--source and --target must be given together");
   }
   const std::string out = BenchmarkFlag(their_args, "out");
   if (!out.empty() &&
@@ -199,7 +202,7 @@ int Main(int argc, char** argv) {
   quatro::AddPairStages([&]() -> const quatro::PairInput& {
     if (!pair) {
       if (!source) {
-        // Options are the defaults, which are valid.
+        // The default options are valid.
         auto simulated = quatro::SimulateSetPair({}, 0, &error);
         source = std::move(simulated->source);
         target = std::move(simulated->target);
@@ -231,7 +234,8 @@ int Main(int argc, char** argv) {
                                   : FLAGS_source + " -> " + FLAGS_target);
   const std::size_t num_run = benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
-  // It has said so: the filter fits nothing, or is no regular expression.
+  // Google Benchmark has printed the reason: the filter matches nothing or is
+  // not a valid regular expression.
   return num_run == 0 ? quatro::kExitBadInput : quatro::kExitDone;
 }
 

@@ -14,86 +14,90 @@ DEFINE_string(
     protocol,
     "",
     "On scans: loop, interval, yaw, timing, pairs, odometry or tilt "
-    "(of loops, no method). On matched points: synthetic (families of "
-    "problems by any methods), tims (yaw from "
+    "(of loops, without a method). On matched points: synthetic (families of "
+    "problems, any methods), tims (yaw from "
     "differences, 95-99 % outliers), "
-    "degeneracy (1-5 true matches), quasi_inliers (right in xy, "
-    "wrong in z), sizes (a thousand to a million matches), slopes "
+    "degeneracy (1-5 inliers), quasi_inliers (correct in xy, not in z), "
+    "sizes (a thousand to a million matches), slopes "
     "(tilts of 2-15 deg with an INS), surrogates or film (numbers for "
     "draw_surrogates.py and draw_gnc_film.py). Required");
 DEFINE_string(output,
               "",
-              "On scans and of synthetic: folder of the run, new or to go on "
-              "with, required. Otherwise CSV file for the table as well");
+              "On scans and for synthetic: folder of the run, new or to "
+              "resume, required. Otherwise CSV file for the table as well");
 DEFINE_string(methods,
               "quatro",
-              "On scans and of synthetic: a,b,c; --list_methods names them");
-DEFINE_bool(list_methods, false, "Print the methods and end");
-DEFINE_string(data, "", "Folder of a drive, or of a data set with drives");
-DEFINE_string(sequences, "", "Drives of the data set, 00,02; empty: all");
-DEFINE_string(poses, "", "File of true poses in place of the data set's own");
+              "On scans and for synthetic: a,b,c; see --list_methods");
+DEFINE_bool(list_methods, false, "List the methods and exit");
+DEFINE_string(data,
+              "",
+              "Folder of a drive, or of a data set with several drives");
+DEFINE_string(sequences, "", "Drives of the data set, e.g. 00,02; empty: all");
+DEFINE_string(poses, "", "File of true poses instead of the data set's own");
 DEFINE_string(
     pairs,
     "",
-    "Of pairs: the list, a .csv, or one of KITTI pairs (kitti_10m, kitti_lc) "
-    "whose sequences --data holds");
+    "For pairs: the list, a .csv, or one of KITTI pairs (kitti_10m, kitti_lc) "
+    "whose sequences are in --data");
 DEFINE_string(preset,
               "kitti",
               "Parameters of all methods: kitti, paper, reference, indoor, or "
               "auto (from each pair of clouds)");
 DEFINE_string(ins_mode,
               "fused",
-              "What quatro_ins makes of the INS: relative, leveled or fused");
-DEFINE_string(bins, "0-2,4-6,8-10", "Of loop, timing, tilt: distances [m]");
+              "How quatro_ins uses the INS: relative, leveled or fused");
+DEFINE_string(bins, "0-2,4-6,8-10", "For loop, timing, tilt: distances [m]");
 DEFINE_int32(min_frame_gap,
              100,
-             "Of loop, timing, tilt: frames between visits");
-DEFINE_double(min_path, 50.0, "Of loop, timing, tilt: way between visits [m]");
+             "For loop, timing, tilt: frames between visits");
+DEFINE_double(min_path,
+              50.0,
+              "For loop, timing, tilt: path between visits [m]");
 DEFINE_string(intervals,
               "1,3,5",
-              "Of interval, odometry: frames apart; yaw: the last");
-DEFINE_double(yaw_step_deg, 30.0, "Of yaw: from one turn to the next [deg]");
-DEFINE_int32(max_pairs,
-             100,
-             "Of each drive and each bin or interval; 0: all there are");
+              "For interval, odometry: frame intervals; yaw uses the last");
+DEFINE_double(yaw_step_deg, 30.0, "For yaw: step of the added yaw [deg]");
+DEFINE_int32(max_pairs, 100, "Pairs per drive and bin or interval; 0: all");
 DEFINE_int32(max_pairs_per_source,
              1,
-             "Of loop and timing: pairs with one frame as the source; 0: all");
-DEFINE_int32(max_frames, 0, "Of odometry: of each drive; 0: all there are");
+             "For loop and timing: pairs per source frame; 0: all");
+DEFINE_int32(max_frames, 0, "For odometry: frames per drive; 0: all");
 DEFINE_string(limits,
               "2/10,2/5,0.6/5",
-              "On scans and of synthetic: a pair is a success within so much "
-              "[m/deg]; the first is that of tables of one. The same command "
-              "with others makes the tables of a finished run anew");
-DEFINE_uint64(seed, 1, "Of the choice of pairs and of the methods");
+              "On scans and for synthetic: error limits of a success [m/deg]. "
+              "Tables with one limit use the first. Run the same command with "
+              "other limits to recompute the tables of a finished run");
+DEFINE_uint64(seed, 1, "Seed for selecting pairs and for the methods");
 DEFINE_string(shard,
               "1/1",
-              "On scans and of synthetic: do part k of n alone, k/n");
+              "On scans and for synthetic: run only part k of n, k/n");
 DEFINE_bool(merge,
             false,
-            "On scans and of synthetic: put the parts in --output together");
-DEFINE_double(outliers, 0.9, "Of film: share of wrong differences");
+            "On scans and for synthetic: merge the parts in --output");
+DEFINE_double(outliers,
+              0.9,
+              "For film: share of outliers among the differences");
 DEFINE_string(families,
               "outliers,noise,matches,degeneracy,quasi_inliers",
-              "Of synthetic: a,b,c");
-DEFINE_int32(seeds, 20, "On matched points: problems of each kind");
-DEFINE_int64(max_matches, 1000000, "Of sizes: the largest problem");
+              "For synthetic: families, a,b,c");
+DEFINE_int32(seeds, 20, "On matched points: problems per kind");
+DEFINE_int64(max_matches, 1000000, "For sizes: matches of the largest problem");
 DEFINE_int32(
     report_views,
     500,
-    "On scans: so many pairs, the first of the list, can be seen in 3D "
-    "in report.html");
+    "On scans: the number of pairs, from the start of the list, that can be "
+    "viewed in 3D in report.html");
 DEFINE_int32(threads,
              0,
-             "0: one per core. On scans so many pairs at a time; timing always "
-             "takes one. Results do not depend on it");
+             "Threads; 0: one per core. On scans, pairs that run at a time; "
+             "timing always runs one. Does not affect the results");
 
 namespace quatro {
 namespace {
 
-constexpr int kMaxInterval = 1'000'000;  // Frames; no drive has as many.
+constexpr int kMaxInterval = 1'000'000;  // Frames; exceeds every drive.
 
-// Noise goes by the noise bound of the methods.
+// The noise is proportional to the noise bound of the methods.
 std::optional<PairSelection> ProblemsOfFlags(std::string* error) {
   const auto registration = OptionsOfFlags(error);
   if (!registration) return std::nullopt;
@@ -135,7 +139,7 @@ std::optional<std::vector<int>> IntervalsOfFlags(std::string* error) {
     const auto number = ParseFiniteNumber(text);
     if (!number || !(*number >= 1.0 && *number <= kMaxInterval) ||
         *number != static_cast<int>(*number)) {
-      *error = "--intervals: '" + text + "' is no number of frames";
+      *error = "--intervals: '" + text + "' is not a number of frames";
       return std::nullopt;
     }
     intervals.push_back(static_cast<int>(*number));
@@ -209,7 +213,7 @@ std::optional<PairSelection> TasksOfFlags(std::string* error) {
 Manifest ManifestOfFlags() {
   Manifest manifest = BeginManifest();
   manifest.seed = FLAGS_seed;
-  // Those that choose pairs are in the checksum of the tasks, too.
+  // Flags that select pairs are also covered by the checksum of the tasks.
   manifest.flags = {{"protocol", FLAGS_protocol},
                     {"methods", FLAGS_methods},
                     {"preset", FLAGS_preset},

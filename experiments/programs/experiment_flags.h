@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The flags of quatro_experiment, and what they stand for. Nullopt, with *error
-// set to what is wrong with which flag.
+// The flags of quatro_experiment and their values. Functions return nullopt,
+// with *error set to the invalid flag and the reason.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_FLAGS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_FLAGS_H_
@@ -39,15 +39,15 @@ DECLARE_int32(threads);
 
 namespace quatro {
 
-// The names in "a,b,c".
+// Splits "a,b,c" into names.
 std::vector<std::string> SplitNames(const std::string& text);
 
-// Of --preset, for all methods: one thread each.
+// The options of --preset for all methods, with one thread each.
 std::optional<RegistrationOptions> OptionsOfFlags(std::string* error);
 
 std::optional<std::vector<int>> IntervalsOfFlags(std::string* error);
 
-// Of --methods and what is an option of theirs; `own` may be among the names.
+// The methods of --methods and their options; names in `own` are accepted too.
 std::optional<RunMethods> MethodsOfFlags(const std::vector<OwnMethod>& own,
                                          std::string* error);
 
@@ -56,7 +56,7 @@ std::optional<std::vector<SequenceData>> DrivesOfFlags(std::string* error);
 // The pairs that --protocol registers.
 std::optional<PairSelection> TasksOfFlags(std::string* error);
 
-// With all that a run depends on.
+// Contains everything on which a run depends.
 Manifest ManifestOfFlags();
 
 }  // namespace quatro

@@ -41,12 +41,11 @@ constexpr char kUsage[] =
     "--output=points\n"
     "  quatro_experiment --protocol=degeneracy\n"
     "\n"
-    "On scans and of synthetic, the folder gets results.csv, a line for each\n"
-    "pair and method, tables, and report.html, a page to look at. A run that\n"
-    "was stopped, by Ctrl-C or otherwise, is gone on with by the same "
-    "command.\n"
-    "Progress goes to standard error.\n"
-    "Exits with 0; 2 if a flag or a file is wrong; 3 if it was stopped.";
+    "On scans and for synthetic, the folder gets results.csv (a line per pair\n"
+    "and method), tables, and report.html, an interactive page. Run the same\n"
+    "command again to resume an interrupted run.\n"
+    "Progress is printed on standard error.\n"
+    "Exits with 0; 2 if a flag or a file is invalid; 3 if it was interrupted.";
 
 constexpr long kMaxMatches = 1'000'000'000;  // 48 GB of points.
 
@@ -78,7 +77,7 @@ std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
   return std::nullopt;
 }
 
-// Once all pairs are done.
+// Writes the tables once all pairs are done.
 int LeaveTables(const quatro::TableOptions& options) {
   std::string error, summary;
   const auto report_template = quatro::ReadReportTemplate(&error);
@@ -110,7 +109,7 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
     std::fprintf(stderr, "%s\n", note.c_str());
   }
   if (selection->tasks.empty()) {
-    return Fail("there are no pairs; see the flags that choose them");
+    return Fail("there are no pairs; see the flags that select them");
   }
   quatro::PairExperiment experiment;
   experiment.tasks = selection->tasks;
@@ -134,7 +133,8 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
       break;
     case quatro::RunEnd::kStopped:
       quatro::EndProgressLine();
-      std::fprintf(stderr, "stopped; the same command goes on from here\n");
+      std::fprintf(stderr,
+                   "interrupted; run the same command again to resume\n");
       return quatro::kExitStopped;
     case quatro::RunEnd::kFailed:
       return Fail(error);
@@ -150,7 +150,7 @@ void TellNotes(const std::vector<quatro::SequenceData>& drives) {
   }
 }
 
-// Methods and intervals are runs of their own and may come to others.
+// Methods and intervals are separate runs; more can be added later.
 bool TakeOdometryManifest(const std::vector<quatro::SequenceData>& drives,
                           std::string* error) {
   quatro::Manifest manifest = quatro::ManifestOfFlags();

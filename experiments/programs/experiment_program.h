@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// quatro_experiment as a function, so that a program of a user's own can run
-// the same experiments with estimators of its own beside ours:
+// quatro_experiment as a function, so that a user's program can run the same
+// experiments with its own estimators in addition to ours:
 //
 //   int main(int argc, char** argv) {
 //     return quatro::RunExperimentProgram(argc, argv, {{"mine", "...", Make}});
 //   }
 //
-// docs/own_estimator.md is an example.
+// See docs/own_estimator.md for an example.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_PROGRAM_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_PROGRAM_H_
@@ -18,7 +18,7 @@
 
 namespace quatro {
 
-// Returns the program's exit code; --helpshort says what there is to run.
+// Returns the program's exit code; --helpshort describes the flags.
 int RunExperimentProgram(int argc,
                          char** argv,
                          const std::vector<OwnMethod>& own = {});

@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t kWidth = 79;
 constexpr std::size_t kIndent = 14;
 
-// Fewer matches than these seldom hold a pose among outliers.
+// Below this number, matches rarely determine a pose despite outliers.
 constexpr int kFewMatches = 100;
 
-// "label:       text", wrapped.
+// Formats "label:       text" with wrapped lines.
 std::string Paragraph(std::string label, const std::string& text) {
   if (!label.empty()) label += ':';
   label.resize(kIndent, ' ');
@@ -37,7 +37,7 @@ std::string Paragraph(std::string label, const std::string& text) {
   return paragraph + '\n';
 }
 
-// The value at a path of names, null if there is none.
+// The value at a path of names; null if it does not exist.
 Json At(const Json& json, const std::vector<std::string>& path) {
   const Json* value = &json;
   for (const std::string& name : path) {
@@ -47,7 +47,7 @@ Json At(const Json& json, const std::vector<std::string>& path) {
   return *value;
 }
 
-// A number as a reader wants it; "?" if there is none.
+// Formats a number for people; "?" if there is none.
 std::string Number(const Json& value, int digits = 3) {
   if (!value.is_number()) return "?";
   std::ostringstream text;
@@ -70,13 +70,13 @@ std::string Percent(const Json& share) {
              : "?";
 }
 
-// ", as by chance in 1 of 1e12 problems" for the stage, if it was tested.
+// "; chance alone would ... once in 1e12 problems" for a stage that was tested.
 std::string ByChance(const Json& report, const std::string& stage) {
   for (const Json& alarms : At(report, {"evidence", "false_alarms"})) {
     if (alarms["stage"] != stage) continue;
     const double exponent = -alarms["log10_false_alarms"].get<double>();
-    if (exponent < 1.0) return ", as chance alone would give";
-    return ", as chance alone would give in 1 of 1e" +
+    if (exponent < 1.0) return "; chance alone would produce such a consensus";
+    return "; chance alone would produce such a consensus once in 1e" +
            Number(std::floor(exponent), 12) + " problems";
   }
   return "";
@@ -87,7 +87,7 @@ std::string Note(const Json& report, const std::string& stage) {
   return note.is_string() ? "; " + note.get<std::string>() : "";
 }
 
-// Not so with a method that takes the clouds alone.
+// Returns false for a method that uses only the clouds.
 bool HasMatches(const Json& report) {
   const Json counts = At(report, {"counts"});
   return counts.contains("mutual_matches") || !counts.contains("source_voxels");
@@ -102,16 +102,17 @@ std::string ExplainFrontEnd(const Json& report) {
   const auto dropped = [&](const char* name) {
     const Json count = At(counts, {name});
     return NumberOr(count, 0.0) > 0.0
-               ? " (" + Number(count) + " were not finite and dropped)"
+               ? " (" + Number(count) + " not finite, dropped)"
                : std::string();
   };
   std::string text = Paragraph(
       "voxels",
-      "of " + Number(counts["source_points"]) + " points of the source" +
-          dropped("source_dropped") + " " + Number(counts["source_voxels"]) +
-          " means in voxels of " + parameter("voxel_size") +
-          " m are kept, of the target's " + Number(counts["target_points"]) +
-          dropped("target_dropped") + " " + Number(counts["target_voxels"]));
+      "the " + Number(counts["source_points"]) + " source points" +
+          dropped("source_dropped") + " are sampled to " +
+          Number(counts["source_voxels"]) + " voxel means, the " +
+          Number(counts["target_points"]) + " target points" +
+          dropped("target_dropped") + " to " + Number(counts["target_voxels"]) +
+          "; the voxel size is " + parameter("voxel_size") + " m");
   if (!HasMatches(report)) return text;
   text += Paragraph("features",
                     "normals within " + parameter("normal_radius") +
@@ -120,9 +121,9 @@ std::string ExplainFrontEnd(const Json& report) {
          Paragraph(
              "matching",
              Number(counts["mutual_matches"]) +
-                 " points are each other's nearest by FPFH; the tuple test "
+                 " pairs are mutual nearest neighbors by FPFH; the tuple test "
                  "keeps " +
-                 Number(counts["matches"]) + " of their matches");
+                 Number(counts["matches"]) + " of them");
 }
 
 std::string ExplainSolver(const Json& report) {
@@ -139,7 +140,7 @@ std::string ExplainSolver(const Json& report) {
     text +=
         Paragraph("rotation",
                   Number(counts["rotation_inliers"]) + " of " +
-                      Number(counts["tims"]) + " differences agree with it" +
+                      Number(counts["tims"]) + " differences are inliers" +
                       ByChance(report, "rotation") + Note(report, "rotation"));
   }
   const Json gap = At(report, {"certificate", "gap"});
@@ -147,10 +148,10 @@ std::string ExplainSolver(const Json& report) {
     text += Paragraph(
         "certificate",
         gap.get<double>() <= 1e-6
-            ? "the yaw is the global optimum of its problem, of cost " +
+            ? "the yaw is the global optimum of its problem, with cost " +
                   Number(report["certificate"]["optimal_cost"])
-            : "graduated non-convexity stopped " + Number(gap) +
-                  " above the optimum, of cost " +
+            : "GNC stopped " + Number(gap) +
+                  " above the optimum, whose cost is " +
                   Number(report["certificate"]["optimal_cost"]));
   }
   if (HasMatches(report) && !At(report, {"target_from_source"}).is_null()) {
@@ -171,11 +172,12 @@ std::string ExplainSolver(const Json& report) {
   }
   const Json refinement = At(report, {"refinement"});
   if (refinement.is_object()) {
-    text += Paragraph("refinement",
-                      refinement["method"].get<std::string>() + " moved by " +
-                          Number(refinement["moved_m"]) + " m and " +
-                          Number(refinement["moved_deg"]) +
-                          " deg: " + refinement["message"].get<std::string>());
+    text +=
+        Paragraph("refinement",
+                  refinement["method"].get<std::string>() +
+                      " moved the pose by " + Number(refinement["moved_m"]) +
+                      " m and " + Number(refinement["moved_deg"]) +
+                      " deg: " + refinement["message"].get<std::string>());
   }
   const Json unobservable = At(report, {"unobservable_directions"});
   if (unobservable.is_array() && !unobservable.empty()) {
@@ -186,7 +188,7 @@ std::string ExplainSolver(const Json& report) {
                         ? direction.get<std::string>()
                         : At(direction, {"text"}).get<std::string>();
     }
-    text += Paragraph("not held", directions);
+    text += Paragraph("unobservable", directions);
   }
   return text;
 }
@@ -198,7 +200,7 @@ std::string ExplainEvidence(const Json& report) {
     text +=
         Paragraph("rival",
                   "the best other pose has " + Number(rival["inliers"]) +
-                      " matches against " +
+                      " inliers, compared with " +
                       Number(report["counts"]["inliers"]) + ", a margin of " +
                       Number(rival["margin"], 2) + " standard deviations");
   }
@@ -207,17 +209,17 @@ std::string ExplainEvidence(const Json& report) {
     text += Paragraph(
         "geometry",
         Percent(geometry["structure_overlap"]) +
-            " of what stands in one scan is met in the other, " +
+            " of the vertical structure overlaps, " +
             Percent(geometry["contradicted_share"]) +
-            " of the surfaces stand where the other scan saw through; under "
-            "the best other pose " +
-            Percent(geometry["rival_overlap"]) + " are met, against " +
+            " of the surfaces are in free space of the other scan; the best "
+            "other pose has an overlap of " +
+            Percent(geometry["rival_overlap"]) + ", compared with " +
             Percent(geometry["coarse_overlap"]));
   }
   return text;
 }
 
-// What to change, from what failed.
+// Recommends changes, depending on what failed.
 std::vector<std::string> Advice(const Json& report) {
   std::vector<std::string> advice;
   if (report["status"] == "registered") return advice;
@@ -227,33 +229,36 @@ std::vector<std::string> Advice(const Json& report) {
   const bool has_clouds = counts.contains("mutual_matches");
   if (has_clouds && num_matches < kFewMatches) {
     advice.emplace_back(
-        "there are few matches: larger radii (--fpfh_radius of five voxels and "
-        "more, --normal_radius of three), smaller voxels (--voxel_size), or "
-        "--preset=auto, which looks at the density of the scans");
+        "there are few matches: try larger radii (--fpfh_radius of at least "
+        "five voxels, --normal_radius of at least three), smaller voxels "
+        "(--voxel_size), or --preset=auto, which adapts to the density of the "
+        "scans");
     if (num_mutual > 0.0 && num_mutual >= 10.0 * num_matches) {
       advice.emplace_back(
-          "the tuple test left less than a tenth of the matches: descriptors "
-          "tell little here, or the scans share little");
+          "the tuple test kept less than a tenth of the matches: the "
+          "descriptors are not distinctive here, or the overlap is small");
     }
   }
   if (!HasMatches(report)) {
     if (report["status"] == "insufficient") {
       advice.emplace_back(
-          "too little of one scan is near the other: a method with matches "
-          "first, this one as its --refine");
+          "too few points of one scan are near the other: use a method with "
+          "matches first, and this one as its --refine");
     } else if (report["status"] == "degenerate") {
       advice.emplace_back(
-          "the surfaces do not hold the pose: scans of more than one wall, a "
-          "smaller --voxel_size, or odometry for what is not held");
+          "the surfaces do not constrain the pose: use scans of more than one "
+          "wall, a smaller --voxel_size, or odometry for the unconstrained "
+          "directions");
     }
   } else if (report["status"] == "insufficient") {
     advice.emplace_back(
-        "too few matches are consistent with each other: a larger "
+        "too few matches are consistent with each other: try a larger "
         "--noise_bound, or matches with fewer outliers");
   } else if (report["status"] == "degenerate") {
     advice.emplace_back(
-        "the consistent matches do not hold the pose: they are at one place or "
-        "on one line; larger radii or scans that share more would add others");
+        "the consistent matches do not constrain the pose because they are at "
+        "one point or on one line: try larger radii or scans with more "
+        "overlap");
   }
   const Json evidence = At(report, {"evidence"});
   const Json alarms = At(evidence, {"false_alarms"});
@@ -262,31 +267,32 @@ std::vector<std::string> Advice(const Json& report) {
       alarms.back()["log10_false_alarms"].get<double>() > -3.0;
   if (is_accidental) {
     advice.emplace_back(
-        "no consensus stands out from chance: the scans share no place, or the "
-        "matches are too poor; scans nearer to each other, or other radii");
+        "no consensus stands out from chance: the scans do not overlap, or the "
+        "matches are too poor; try scans closer to each other, or other radii");
   } else if (NumberOr(At(evidence, {"rival", "margin"}), 9.0) < 2.0) {
     advice.emplace_back(
-        "another pose has nearly as many matches: the place is symmetric or "
-        "repeats itself, or the matches lie at one place; a rough guess of the "
-        "pose can decide, evidence.rival has the other one");
+        "another pose has nearly as many inliers: the place is symmetric or "
+        "repetitive, or the matches are close together; a rough guess of the "
+        "pose can decide (evidence.rival has the other pose)");
   }
   const Json geometry = At(evidence, {"geometry"});
   if (geometry.is_object()) {
     if (NumberOr(geometry["structure_overlap"], 1.0) < 0.3) {
       advice.emplace_back(
-          "little of the structure is met: the scans share no place, or less "
-          "than can be told; take scans that are nearer to each other");
+          "little of the structure overlaps: the scans show different places, "
+          "or the overlap is too small to measure; use scans closer to each "
+          "other");
     } else if (NumberOr(geometry["coarse_overlap"], 1.0) -
                    NumberOr(geometry["rival_overlap"], 0.0) <
                0.1) {
       advice.emplace_back(
-          "the scans fit as well elsewhere: a corridor or a symmetric place, "
-          "where geometry cannot tell; use odometry");
+          "the scans fit as well at another pose: in a corridor or a symmetric "
+          "place geometry cannot decide; use odometry");
     }
     if (NumberOr(geometry["contradicted_share"], 0.0) > 0.3) {
       advice.emplace_back(
-          "surfaces stand in free space of the other scan: the pose is wrong, "
-          "or most of what was seen moved between the scans");
+          "surfaces are in free space of the other scan: the pose is "
+          "incorrect, or most of the scene moved between the scans");
     }
   }
   const Json ins_mode = At(report, {"parameters", "ins_mode"});
@@ -294,8 +300,8 @@ std::vector<std::string> Advice(const Json& report) {
       At(report, {"unpolished_target_from_source"}).is_null() &&
       !At(report, {"target_from_source"}).is_null()) {
     advice.emplace_back(
-        "roll and pitch were taken to be zero, since the matches do not hold "
-        "them; on slopes give those of an INS (--ins_mode)");
+        "roll and pitch were assumed to be zero because the matches do not "
+        "constrain them: on slopes, provide those of an INS (--ins_mode)");
   }
   return advice;
 }
@@ -309,7 +315,7 @@ std::string Explain(const Json& report) {
   std::string verdict = report["status"].get<std::string>();
   const double probability = NumberOr(At(report, {"probability"}), 0.0);
   if (!At(report, {"target_from_source"}).is_null()) {
-    verdict += ", right with a probability of " + Number(probability, 4);
+    verdict += ", correct with a probability of " + Number(probability, 4);
   }
   text += Paragraph("verdict",
                     verdict + ": " + report["reason"].get<std::string>());

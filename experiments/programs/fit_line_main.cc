@@ -11,9 +11,9 @@
 #include "features/base/random.h"
 #include "robust/gnc/ceres_gnc.h"
 
-DEFINE_int32(points, 300, "How many");
-DEFINE_double(outliers, 0.7, "Share of points that are anywhere");
-DEFINE_uint64(seed, 0, "Of the points");
+DEFINE_int32(points, 300, "Number of points");
+DEFINE_double(outliers, 0.7, "Share of outliers");
+DEFINE_uint64(seed, 0, "Random seed");
 
 namespace {
 
@@ -22,13 +22,13 @@ constexpr double kOffset = 1.0;
 constexpr double kNoise = 0.05;
 
 constexpr char kUsage[] =
-    "fits a line to points of which most are wrong: the first example of\n"
+    "fits a line to points that are mostly outliers: the first example of\n"
     "robust/gnc/ceres_gnc.h.\n"
     "\n"
     "  quatro_fit_line --outliers=0.7\n"
     "\n"
-    "Prints y = a x + b of the truth, of ceres::Solve and of GNC. Exits with\n"
-    "0; 1 if there is no answer; 2 if a flag is wrong.";
+    "Prints y = a x + b for the truth, ceres::Solve and GNC. Exits with 0;\n"
+    "1 if there is no answer; 2 if a flag is invalid.";
 
 struct PointOnLine {
   template <typename T>

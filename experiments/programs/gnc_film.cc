@@ -23,7 +23,7 @@ struct Fit {
   Weights weights;
 };
 
-// Quasi-SO(3) that keeps what it is asked.
+// A QuasiSo3 that records the weights it receives.
 struct FilmedQuasiSo3 : QuasiSo3 {
   std::vector<Fit>* fits = nullptr;
 
@@ -89,7 +89,7 @@ GncFilm FilmGnc(const FilmOptions& options) {
   problem.noise_bound = bound;
   problem.fits = &fits;
   const auto gnc = SolveGnc<TruncatedLeastSquares>(problem, GncOptions{});
-  // The plain fit comes first and then a fit an iteration.
+  // The plain fit is first, followed by one fit per iteration.
   for (std::size_t i = 0; i < fits.size(); ++i) {
     FilmFrame& frame = film.frames.emplace_back();
     frame.yaw = fits[i].yaw;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What GNC does on the way: of one problem of differences, the weight of each
-// in each iteration, and the surrogate's cost over all yaws,
+// Records the iterations of GNC on one problem of TIMs: the weight of each TIM
+// in each iteration, and the surrogate cost over all yaws,
 //
 //   f_mu(yaw) = sum_k rho_mu(r_k(yaw)^2 / c^2),                            (1)
 //
-// beside the truncated cost, whose least yaw is known
-// (solvers/closed_form/exact_yaw.h). For experiments/scripts/draw_gnc_film.py.
+// together with the truncated cost, whose global minimum is known
+// (solvers/closed_form/exact_yaw.h). Input of
+// experiments/scripts/draw_gnc_film.py.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_GNC_FILM_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_GNC_FILM_H_
@@ -22,7 +23,7 @@
 namespace quatro {
 
 struct FilmFrame {
-  double mu = 0.0;   // Of the weights; 0 for the plain fit, which has none.
+  double mu = 0.0;   // 0 for the plain fit, which has no weights.
   double yaw = 0.0;  // Fitted with these weights [rad].
   Weights weights;
   Eigen::VectorXd curve;  // (1) over GncFilm::yaws.
@@ -31,13 +32,13 @@ struct FilmFrame {
 struct GncFilm {
   std::vector<FilmFrame> frames;
   double true_yaw = 0.0;   // [rad]
-  double gnc_yaw = 0.0;    // Where the loop ended [rad].
+  double gnc_yaw = 0.0;    // Result of GNC [rad].
   double exact_yaw = 0.0;  // [rad]
-  double gnc_cost = 0.0;   // Truncated.
+  double gnc_cost = 0.0;   // Truncated cost.
   double exact_cost = 0.0;
   std::vector<double> yaws;         // -pi .. pi [rad]
   Eigen::VectorXd truncated_curve;  // mu -> inf
-  std::vector<bool> is_true;        // Of each difference.
+  std::vector<bool> is_true;        // Per TIM: an inlier.
 };
 
 struct FilmOptions {
@@ -54,10 +55,10 @@ struct FilmOptions {
 // `options` must be valid.
 GncFilm FilmGnc(const FilmOptions& options);
 
-// Rows of kind, iteration, mu, x, y: "weight" (x: number of the difference),
-// "curve" (x: yaw [deg]) and "yaw" (x: yaw [deg], y: truncated cost) of each
-// iteration; of none "truncated" (x: yaw [deg]), "is_true" (x: number of the
-// difference, y: 0 or 1), and "gnc", "exact" and "truth", as "yaw".
+// Rows of kind, iteration, mu, x, y. Each iteration has "weight" (x: index of
+// the TIM), "curve" (x: yaw [deg]) and "yaw" (x: yaw [deg], y: truncated cost).
+// Rows without an iteration are "truncated" (x: yaw [deg]), "is_true" (x: index
+// of the TIM, y: 0 or 1), and "gnc", "exact" and "truth", which are like "yaw".
 Table TabulateFilm(const GncFilm& film);
 
 }  // namespace quatro

@@ -22,7 +22,7 @@ constexpr NamedMode kModes[] = {{"none", InsMode::kNone},
                                 {"leveled", InsMode::kLeveled},
                                 {"fused", InsMode::kFused}};
 
-// "1,2,3" and nothing after it.
+// Parses "1,2,3" with nothing after it.
 std::optional<Eigen::Vector3d> ParseThree(const std::string& text) {
   Eigen::Vector3d three;
   const char* rest = text.c_str();
@@ -47,7 +47,7 @@ bool ParseAttitude(const std::string& flag,
     return false;
   }
   if (text.empty()) {
-    *error = "--" + flag + " is empty, --ins_mode=" + mode + " needs it";
+    *error = "--" + flag + " is empty, but --ins_mode=" + mode + " needs it";
     return false;
   }
   const auto rpy_deg = ParseThree(text);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The INS on the command line. Angles are in degrees there, and nowhere else.
+// The INS on the command line, the only place where angles are in degrees.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_INS_FLAGS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_INS_FLAGS_H_
@@ -13,21 +13,21 @@
 
 namespace quatro {
 
-// As given: --ins_mode, --source_rpy_deg, --target_rpy_deg, --ins_std_deg and
-// --gravity.
+// The flags as given: --ins_mode, --source_rpy_deg, --target_rpy_deg,
+// --ins_std_deg and --gravity.
 struct InsFlags {
-  std::string mode = "none";   // relative, leveled or fused.
+  std::string mode = "none";   // none, relative, leveled or fused.
   std::string source_rpy_deg;  // "roll,pitch,yaw"
   std::string target_rpy_deg;
   double std_deg = 0.5;
-  std::string gravity = "0,0,1";  // What is up, of any length but 0.
+  std::string gravity = "0,0,1";  // The up direction; nonzero.
 };
 
-// "none", "relative", "leveled" or "fused".
+// Returns "none", "relative", "leveled" or "fused".
 const char* InsModeName(InsMode mode);
 
-// Nullopt, with *error set to what is wrong with which flag. Both attitudes
-// must be given if the mode needs them, and neither if it does not.
+// Returns nullopt, with *error set to the invalid flag and the reason. Both
+// attitudes must be given if the mode needs them, and neither if it does not.
 std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
                                         std::string* error);
 

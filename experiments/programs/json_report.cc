@@ -126,7 +126,7 @@ Json Describe(const GeometricEvidence& evidence) {
       {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
 }
 
-// What the verdict was made from.
+// The evidence on which the verdict is based.
 Json DescribeEvidence(const Verdict& verdict) {
   Json evidence = {{"false_alarms", Json::array()}};
   for (const FalseAlarms& alarms : verdict.false_alarms) {
@@ -176,11 +176,11 @@ Json Describe(const UnobservableDirection& direction) {
           {"text", direction.Describe()}};
 }
 
-// `covariance`, `unobservable_directions`, and what they rest on.
+// Adds `covariance`, `unobservable_directions`, and their assumptions.
 void AddUncertainty(const std::optional<PoseCovariance>& uncertainty,
                     Json* report) {
   (*report)["covariance"] = nullptr;
-  (*report)["covariance_about"] = nullptr;  // The same about the inliers.
+  (*report)["covariance_about"] = nullptr;  // About the inliers' mean.
   (*report)["unobservable_directions"] = Json::array();
   (*report)["match_sigma"] = nullptr;
   if (!uncertainty) return;
@@ -199,7 +199,7 @@ void AddUncertainty(const std::optional<PoseCovariance>& uncertainty,
       {"from_residuals", OrNull(uncertainty->estimated_sigma)}};
 }
 
-// Microseconds are as fine as a clock is believed.
+// Rounds to microseconds, the resolution of the clock.
 double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The answer as JSON, for programs. The same for any number of threads, but for
-// `timings_ms`.
+// The result as JSON, for programs. It does not depend on the number of
+// threads, except for `timings_ms`.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_JSON_REPORT_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_JSON_REPORT_H_
@@ -23,9 +23,9 @@ namespace quatro {
 
 using Json = nlohmann::ordered_json;
 
-// What both programs report: status and reason (the verdict's), message (the
-// estimator's), target_from_source (4 rows of 4, or null), yaw_deg, counts,
-// covariance (6 rows of 6, rotation [rad] first, or null),
+// The fields that both programs report: status and reason (of the verdict),
+// message (of the estimator), target_from_source (4 rows of 4, or null),
+// yaw_deg, counts, covariance (6 rows of 6, rotation [rad] first, or null),
 // unobservable_directions, match_sigma [m], certificate, timings_ms, method.
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
@@ -33,15 +33,15 @@ Json MakeReport(const std::string& method,
                 const std::vector<StageTime>& stage_times,
                 double total_seconds);
 
-// What the surfaces hold of the position on the ground, or null.
+// The observability of the horizontal position from the surfaces, or null.
 Json Describe(const std::optional<SurfaceObservability>& hold);
 
 // Method, termination, message, whether it was accepted, iterations, inliers,
-// moved_m and moved_deg, cost, conditioning and the pose before. Null if it was
-// not tried.
+// moved_m and moved_deg, cost, conditioning and the pose before refinement.
+// Null if there was no refinement.
 Json DescribeRefinement(const std::optional<RefinementSummary>& refinement);
 
-// The parameters as given and used.
+// The parameters that were used.
 Json DescribeOptions(const QuatroOptions& options);
 Json DescribeOptions(const FrontEndOptions& options);
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Matched points as text: one match a line, sx,sy,sz,tx,ty,tz [m].
+// Matched points as text, one match per line: sx,sy,sz,tx,ty,tz [m].
 //
-// Commas, blanks or tabs separate; a first line of names, empty lines and lines
-// that start with # are passed over.
+// Separators are commas, spaces or tabs. A header line, empty lines and lines
+// that start with # are ignored.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_MATCHES_CSV_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_MATCHES_CSV_H_
@@ -20,13 +20,14 @@ struct MatchedPoints {
   Points target;  // [m]
 };
 
-// Returns nullopt and says file, line, column and reason in *error for anything
-// but six finite numbers a line, and for an empty file. A file that has a line
-// of names and no matches is read as no matches.
+// Returns nullopt and sets *error (file, line, column and reason) unless each
+// line has six finite numbers, and for an empty file. A file with only a header
+// line contains no matches.
 std::optional<MatchedPoints> ReadMatches(const std::string& path,
                                          std::string* error);
 
-// With a line of names; every number comes back bit for bit.
+// Writes a header line. Reading the text back recovers every number bit for
+// bit.
 std::string FormatMatches(const PointsRef& source, const PointsRef& target);
 
 }  // namespace quatro

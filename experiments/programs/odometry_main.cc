@@ -25,30 +25,32 @@ DEFINE_string(input,
               "",
               "Folder of a drive in KITTI's layout, or of its scans: .bin, "
               ".ply or .pcd named by frame number. Required");
-DEFINE_string(method, "aloam", "See --list_methods");
-DEFINE_bool(list_methods, false, "Tell the methods and stop");
-DEFINE_int32(interval, 1, "Every how many frames");
-DEFINE_int32(first_frame, 0, "The frame to start at");
+DEFINE_string(method, "aloam", "Method; see --list_methods");
+DEFINE_bool(list_methods, false, "List the methods and exit");
+DEFINE_int32(interval, 1, "Use every interval-th frame");
+DEFINE_int32(first_frame, 0, "First frame");
 DEFINE_int32(last_frame,
              -1,
-             "The last frame; -1, or after it: that of the last file");
-DEFINE_string(preset, "kitti", "Of the methods from scan to scan");
-DEFINE_string(output, "", "File of KITTI poses to write, a line a frame");
+             "Last frame; -1 or too large: that of the last file");
+DEFINE_string(preset, "kitti", "Preset of the scan-to-scan methods");
+DEFINE_string(output, "", "Output file with KITTI poses, one line per frame");
 DEFINE_string(calib,
               "",
               "calib.txt whose Tr moves the poses into cam0; empty: that of "
-              "--input, if there is one, else poses are of the lidar");
+              "--input, if there is one; otherwise poses of the lidar");
 DEFINE_string(truth,
               "",
-              "poses.txt to measure the drift by, a line for every frame of "
-              "the drive; empty: that of --input, if there is one");
+              "poses.txt for measuring the drift, with a line for every frame "
+              "of the drive; empty: that of --input, if there is one");
 DEFINE_string(outside,
               "",
-              "Rows of other programs for the table: NAME=POSES,... with POSES "
-              "a file of KITTI poses for the same frames, or for all");
-DEFINE_bool(quoted, false, "Rows of the paper in the table, so marked");
+              "Rows of other programs for the table: NAME=POSES,... where "
+              "POSES is a file of KITTI poses for the same or for all frames");
+DEFINE_bool(quoted,
+            false,
+            "Add the paper's rows to the table, marked as quoted");
 DEFINE_string(table, "", "CSV file for the table as well");
-DEFINE_int32(threads, 0, "0: one per core. The poses don't depend on it");
+DEFINE_int32(threads, 0, "Threads; 0: one per core. Does not affect the poses");
 
 namespace {
 
@@ -57,13 +59,13 @@ constexpr char kUsage[] =
     "\n"
     "  quatro_odometry --input=drive --method=suma --output=poses.txt\n"
     "\n"
-    "With true poses prints the drift as KITTI has it, t_rel [%] and r_rel\n"
-    "[deg/100 m]. A scan that is missing, unreadable or can't be placed is\n"
-    "told on standard error and counted; its pose is the one of constant\n"
-    "velocity. Exits with 0; 1 if more than half of the scans were lost; 2 if\n"
-    "a flag or a file is wrong.";
+    "If true poses are available, prints the drift as defined by KITTI, t_rel\n"
+    "[%] and r_rel [deg/100 m]. A missing or unreadable scan, or one that\n"
+    "cannot be registered, is reported on standard error and counted, and its\n"
+    "pose is extrapolated at constant velocity. Exits with 0; 1 if more than\n"
+    "half of the scans were lost; 2 if a flag or a file is invalid.";
 
-// `given`, or `folder`/`name` if there is such a file, or nothing.
+// Returns `given`, or `folder`/`name` if this file exists, or an empty string.
 std::string FileOrDefault(const std::string& given,
                           const std::string& folder,
                           const std::string& name) {
@@ -133,7 +135,7 @@ int Main(int argc, char** argv) {
   const auto outside = quatro::ParseOutside(FLAGS_outside, &error);
   if (!outside) return Fail(error);
 
-  // All inputs are read before the hours that a run may take.
+  // Reads all inputs before a run that may take hours.
   const auto scans = quatro::ListScans(FLAGS_input, &error);
   if (!scans) return Fail(error);
   const std::string calib =

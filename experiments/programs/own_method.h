@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// An estimator from matched points that is not in the registry of
-// experiments/programs/methods.h: a value, brought along by whoever runs an
-// experiment.
+// An estimator for matched points that is not in the registry of
+// experiments/programs/methods.h. The program that runs an experiment supplies
+// it as a value.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_OWN_METHOD_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_OWN_METHOD_H_
@@ -16,11 +16,11 @@
 namespace quatro {
 
 struct OwnMethod {
-  std::string name;         // None of the registry's; no comma.
+  std::string name;         // Not in the registry; no comma.
   std::string description;  // One line.
 
-  // The estimator with noise bound, seed and threads of the options, and what
-  // else it can use of them.
+  // Makes the estimator with noise bound, seed and threads of the options, and
+  // any other options that it can use.
   std::function<PoseSolver(const QuatroOptions& options)> make;
 };
 

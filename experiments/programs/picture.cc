@@ -17,7 +17,7 @@
 #include "features/base/file.h"
 #include "features/voxel_grid.h"
 
-extern char** environ;  // NOLINT: glibc has declared it, others have not.
+extern char** environ;  // NOLINT: declared by glibc, but not by others.
 
 namespace quatro {
 namespace {
@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 constexpr double kDrawnVoxel = 0.2;      // [m]
 constexpr double kOriginStep = 10000.0;  // [m]
 
-// Runs a script with a python that has matplotlib. Its standard output goes to
-// stderr: ours is for the JSON.
+// Runs a script with a Python that has matplotlib. Its standard output goes to
+// stderr because ours is for the JSON.
 bool RunPython(const std::vector<std::string>& args, std::string* error) {
   std::vector<std::string> command = {FindSharedFile("with_python.sh").string(),
                                       "numpy,matplotlib"};
@@ -80,8 +80,8 @@ std::optional<std::string> DrawRegistration(const RegistrationPicture& picture,
                                             std::string* error) {
   nlohmann::json data;
   data["title"] = picture.title;
-  // Everything about a round number near by, so that what is drawn keeps its
-  // digits; zero for all but map coordinates.
+  // Everything is drawn relative to a round number nearby, so that map
+  // coordinates keep their digits; the origin is zero for all other data.
   const Eigen::Vector3d origin =
       picture.target.cols() > 0
           ? Eigen::Vector3d(

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The picture of a registration: both clouds from above, before and after, with
-// the matches that were kept in green and the rejected ones in red.
+// inlier matches in green and the others in red.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_PICTURE_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_PICTURE_H_
@@ -26,7 +26,8 @@ struct RegistrationPicture {
   std::string title;
 };
 
-// Whether pictures can be drawn here; says what to install in *error if not.
+// Returns whether pictures can be drawn on this machine; if not, *error says
+// what to install.
 bool CanDrawPictures(std::string* error);
 
 // The picture as a PNG file's bytes, drawn by

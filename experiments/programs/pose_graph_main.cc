@@ -18,57 +18,63 @@
 #include "experiments/protocols/synthetic_protocols.h"
 
 DEFINE_string(input, "", "g2o file; empty: a generated world");
-DEFINE_string(output, "", "g2o file for the answer; of a protocol, CSV");
+DEFINE_string(output,
+              "",
+              "g2o file for the solution; with --protocol, a CSV file");
 DEFINE_string(loss,
               "gnc",
-              "About loops that may be wrong: gnc, none, huber, cauchy, tukey");
+              "Robust loss of the loops: gnc, none, huber, cauchy, tukey");
 DEFINE_double(inlier_probability,
               0.999999,
-              "Share of right loops that the bound lets by");
+              "Share of inlier loops within the bound");
 DEFINE_string(gnc_start,
               "plain_fit",
-              "Which residuals start mu: plain_fit, or identity for those of "
-              "the poses given");
-DEFINE_double(mu_step, 1.4, "By which mu moves in an iteration");
+              "Residuals that determine the first mu: plain_fit, or identity "
+              "for those of the given poses");
+DEFINE_double(mu_step, 1.4, "Factor of mu per iteration");
 DEFINE_bool(chain_odometry,
             false,
-            "Start from the odometry alone and not from the poses of --input; "
-            "a generated world always does");
+            "Start from the odometry instead of the poses of --input; a "
+            "generated world always does");
 DEFINE_string(world, "manhattan", "manhattan (in the plane) or sphere");
-DEFINE_int32(poses, 400, "Of the generated world");
-DEFINE_int32(loops, 200, "Of the generated world, right and wrong");
-DEFINE_double(wrong_share, 0.5, "Of the loops that are wrong");
-DEFINE_double(sigma_m, 0.02, "Noise of the generated world on each axis [m]");
-DEFINE_double(sigma_deg, 0.3, "The same about each axis [deg]");
+DEFINE_int32(poses, 400, "Poses of the generated world");
+DEFINE_int32(loops, 200, "Loops of the generated world, inliers and outliers");
+DEFINE_double(wrong_share, 0.5, "Share of outliers among the loops");
+DEFINE_double(sigma_m,
+              0.02,
+              "Position noise of the generated world, per axis [m]");
+DEFINE_double(sigma_deg,
+              0.3,
+              "Rotation noise of the generated world, per axis [deg]");
 DEFINE_int32(max_wrong_steps,
              0,
-             "Wrong loops join poses this many steps apart at most; 0: any");
-DEFINE_uint64(seed, 0, "Of the generated world");
-DEFINE_string(world_output, "", "g2o file for the generated world as it is");
+             "Outlier loops join poses at most this many steps apart; 0: any");
+DEFINE_uint64(seed, 0, "Random seed of the generated world");
+DEFINE_string(world_output,
+              "",
+              "g2o file for the generated world before solving");
 DEFINE_string(protocol,
               "",
-              "wrong_loops: success against the share of wrong loops, for "
+              "wrong_loops: success over the share of outlier loops, for "
               "every loss; numbers for draw_wrong_loops.py");
-DEFINE_int32(seeds, 10, "Worlds of each kind, for --protocol");
-DEFINE_bool(full_report, false, "Print the trace of mu and cost as well");
+DEFINE_int32(seeds, 10, "Worlds per kind, for --protocol");
+DEFINE_bool(full_report, false, "Also print mu and cost of each iteration");
 
 namespace {
 
 using quatro::Fail;
 
 constexpr char kUsage[] =
-    "finds the poses of a graph whose loops may be wrong.\n"
+    "finds the poses of a graph whose loops may be outliers.\n"
     "\n"
     "  quatro_pose_graph --input=graph.g2o --output=answer.g2o\n"
     "  quatro_pose_graph --world=sphere --wrong_share=0.5\n"
     "  quatro_pose_graph --protocol=wrong_loops --output=wrong_loops.csv\n"
     "\n"
-    "Edges between poses that follow each other are odometry and taken as\n"
-    "right, the others are loops. Prints what was done. Exits with 0; 1 if "
-    "there\n"
-    "is no answer, or odometry and the loops that were kept leave the graph "
-    "in\n"
-    "parts (nothing is written then); 2 if a flag or a file is wrong.";
+    "Edges between consecutive poses are odometry and assumed to be inliers;\n"
+    "all others are loops. Prints a summary. Exits with 0; 1 if there is no\n"
+    "answer, or if odometry and accepted loops leave the graph disconnected\n"
+    "(nothing is written then); 2 if a flag or a file is invalid.";
 
 std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
   quatro::PoseGraphOptions options;
@@ -120,13 +126,13 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
   }
   if (!FLAGS_input.empty() || !FLAGS_world_output.empty()) {
     return Fail(
-        "--protocol makes its own worlds, must not go with --input or "
-        "--world_output");
+        "--protocol generates its own worlds, must not be combined with "
+        "--input or --world_output");
   }
   if (FLAGS_seeds < 1 || FLAGS_seeds > quatro::kMaxSeeds) {
     return Fail("--seeds must be 1 to " + std::to_string(quatro::kMaxSeeds));
   }
-  // The most right loops are asked for at the least wrong share.
+  // The smallest outlier share needs the most inlier loops.
   for (const char* name : {"manhattan", "sphere"}) {
     for (int seed = 0; seed < FLAGS_seeds; ++seed) {
       quatro::GraphWorldOptions hardest = WorldFromFlags();
@@ -147,7 +153,7 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
   return quatro::kExitDone;
 }
 
-// How many of the wrong and of the right loops kept some weight.
+// Prints how many outliers kept some weight and how many inliers lost theirs.
 void PrintTruth(const quatro::GraphWorld& world,
                 const quatro::PoseGraphOptions& options,
                 const quatro::PoseGraph& answer,
@@ -168,8 +174,8 @@ void PrintTruth(const quatro::GraphWorld& world,
   const auto difference =
       quatro::LargestDifference(answer.world_from_pose, clean.world_from_pose);
   std::printf(
-      "of %d wrong loops %d kept weight, %d right ones lost theirs; poses "
-      "differ from those without wrong loops by %.3g m and %.3g rad at most\n",
+      "%d outlier loops, %d of them accepted; %d inlier loops rejected; poses "
+      "differ from those without outliers by at most %.3g m and %.3g rad\n",
       num_wrong,
       num_wrong_kept,
       num_right_lost,
@@ -199,7 +205,7 @@ int Main(int argc, char** argv) {
     graph = world->graph;
   } else {
     if (!FLAGS_world_output.empty()) {
-      return Fail("--world_output goes with a generated world, not --input");
+      return Fail("--world_output requires a generated world, not --input");
     }
     auto read = quatro::ReadG2o(FLAGS_input, &error);
     if (!read) return Fail(error);
@@ -219,7 +225,7 @@ int Main(int argc, char** argv) {
   const auto parts = quatro::FirstOfParts(graph, summary.weights);
   if (parts.size() > 1) {
     std::printf(
-        "the graph is in %zu parts: neither odometry nor a loop that was kept "
+        "the graph has %zu components: neither odometry nor an accepted loop "
         "joins pose %lld to pose %lld; add edges between them\n",
         parts.size(),
         static_cast<long long>(graph.ids[parts[1]]),

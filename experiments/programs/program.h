@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What every program does before its own work, and how it ends.
+// Common startup and exit of all programs.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_PROGRAM_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_PROGRAM_H_
@@ -12,25 +12,23 @@
 namespace quatro {
 
 enum ExitCode {
-  kExitDone = 0,  // Of the registering programs: registered.
-  kExitNotVouchedFor =
-      1,              // There may be an answer; the JSON says what is wrong.
-  kExitBadInput = 2,  // Flags or files; one line on stderr says which.
-  kExitStopped = 3,   // On request, or for want of memory.
+  kExitDone = 0,           // Registration programs: registered.
+  kExitNotVouchedFor = 1,  // There may be an answer; the JSON gives the reason.
+  kExitBadInput = 2,       // Flag or file; one line on stderr says which.
+  kExitStopped = 3,        // Interrupted, or out of memory.
 };
 
-// The whole of a program: run(argc, argv) gives its exit code. Where there is
-// not enough memory for it, one line on stderr says so, and the exit code is
-// kExitStopped; so for all else that a library throws. Where standard output
-// could not be written, one line says that, and the exit code is kExitBadInput.
+// Runs a whole program: run(argc, argv) returns its exit code. If memory runs
+// out or a library throws, prints one line on stderr and returns kExitStopped.
+// If standard output cannot be written, prints one line and returns
+// kExitBadInput.
 int RunProgram(const std::function<int(int argc, char** argv)>& run,
                int argc,
                char** argv);
 
-// Parses the flags. Returns the exit code if the program is to end here: after
-// --help or --version, or for a flag or argument that is not known. `main_file`
-// is the name of the program's source without its ending: --help shows its
-// flags alone.
+// Parses the flags. Returns an exit code if the program should end: after
+// --help or --version, or for an unknown flag or argument. `main_file` is the
+// name of the program's source without extension; --help shows only its flags.
 std::optional<int> ParseFlags(const std::string& usage,
                               const std::string& main_file,
                               int argc,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One line on standard error that is written over: how much is done, how long
-// the rest will take.
+// A progress line on standard error that is overwritten in place: how much is
+// done, and how long the rest will take.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
@@ -14,13 +14,13 @@
 
 namespace quatro {
 
-// Whether the cursor stands behind a progress that is not at its end.
+// Whether the cursor is after an unfinished progress line.
 inline bool& IsProgressLineOpen() {
   static bool is_open = false;
   return is_open;
 }
 
-// What follows, an error say, gets a line of its own.
+// Starts a new line for the next output, such as an error.
 inline void EndProgressLine() {
   if (IsProgressLineOpen()) std::fputc('\n', stderr);
   IsProgressLineOpen() = false;

@@ -23,26 +23,26 @@
 #include "robust/registration/presets.h"
 #include "robust/registration/registration.h"
 
-DEFINE_string(source, "", "The cloud to move: .bin (KITTI), .ply or .pcd");
-DEFINE_string(target, "", "The cloud to move it onto");
+DEFINE_string(source,
+              "",
+              "The source cloud, the one to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(target, "", "The target cloud");
 DEFINE_string(preset,
               "kitti",
               "kitti (64 beams outdoors), paper or reference (as published), "
               "indoor (16 beams), or auto (from the clouds themselves)");
-DEFINE_string(method,
-              "quatro",
-              "How to solve; --list_methods says what there is");
-DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_string(method, "quatro", "Method; see --list_methods");
+DEFINE_bool(list_methods, false, "List the methods and exit");
 DEFINE_string(recover,
               "",
-              "Translation again over all matches: on or off; empty: the "
+              "Re-estimate the translation: on or off; empty: the "
               "preset's");
 DEFINE_string(polish,
               "",
-              "Roll and pitch on the inliers: on or off; empty: the preset's");
+              "Polish roll and pitch: on or off; empty: the preset's");
 DEFINE_string(refine,
               "none",
-              "Local registration from the pose found: none, icp, gicp or "
+              "Refine the pose by local registration: none, icp, gicp or "
               "vgicp");
 DEFINE_string(ins_mode,
               "none",
@@ -50,23 +50,29 @@ DEFINE_string(ins_mode,
 DEFINE_string(source_rpy_deg,
               "",
               "The INS' roll,pitch,yaw of the source [deg]; x ahead, z up");
-DEFINE_string(target_rpy_deg, "", "The same of the target [deg]");
+DEFINE_string(target_rpy_deg,
+              "",
+              "The INS' roll,pitch,yaw of the target [deg]");
 DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
-DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
+DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
 DEFINE_bool(crosscheck,
             false,
             "Solve every weighted subproblem by Ceres too and report the "
             "largest difference");
-DEFINE_double(voxel_size, 0.0, "Of the sampling [m]; 0: the preset's");
-DEFINE_double(normal_radius, 0.0, "Of the normals [m]; 0: the preset's");
-DEFINE_double(fpfh_radius, 0.0, "Of the descriptors [m]; 0: the preset's");
+DEFINE_double(voxel_size, 0.0, "Voxel size [m]; 0: the preset's");
+DEFINE_double(normal_radius, 0.0, "Radius of the normals [m]; 0: the preset's");
+DEFINE_double(fpfh_radius,
+              0.0,
+              "Radius of the descriptors [m]; 0: the preset's");
 DEFINE_double(noise_bound,
               0.0,
-              "How far a right match may be off [m]; 0: the preset's");
-DEFINE_uint64(seed, 0, "Of all that is drawn at random");
-DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+              "Largest error of an inlier [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Random seed");
+DEFINE_int32(threads,
+             0,
+             "Threads; 0: one per core. Does not affect the result");
 DEFINE_string(json, "", "File for the answer; empty: standard output");
 DEFINE_bool(explain,
             false,
@@ -75,11 +81,11 @@ DEFINE_bool(explain,
 DEFINE_string(picture, "", "PNG file for both clouds before and after");
 DEFINE_string(report,
               "",
-              "HTML file for a page to look at: both clouds in 3D, and what "
-              "became of the matches stage by stage");
+              "HTML file for an interactive page: both clouds in 3D, and the "
+              "matches stage by stage");
 DEFINE_string(correspondences_out,
               "",
-              "CSV file for the matches, as quatro_solve reads them");
+              "CSV file for the matches, as input of quatro_solve");
 
 namespace {
 
@@ -120,7 +126,7 @@ constexpr char kUsage[] =
     "target. Progress goes to standard error.\n"
     "Exits with 0 if registered; 1 if an answer can't be vouched for (the "
     "JSON\n"
-    "says why); 2 if a flag or a file is wrong (nothing is written then).";
+    "says why); 2 if a flag or a file is invalid (nothing is written then).";
 
 // The options that the flags ask for, but for those that --preset=auto takes
 // from the clouds.

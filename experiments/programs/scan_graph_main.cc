@@ -23,16 +23,24 @@ DEFINE_string(scans,
 DEFINE_string(odometry,
               "",
               "g2o file in space with a pose for each scan and edges between "
-              "those that follow each other, which are taken as right");
+              "consecutive poses, which are assumed to be inliers");
 DEFINE_string(preset, "kitti", "kitti, paper, reference or indoor");
-DEFINE_string(loss, "gnc", "About loops: gnc, none, huber, cauchy or tukey");
-DEFINE_double(loop_sigma_m, 0.1, "Noise of a right loop on each axis [m]");
-DEFINE_double(loop_sigma_deg, 0.5, "The same about each axis [deg]");
+DEFINE_string(loss,
+              "gnc",
+              "Robust loss of the loops: gnc, none, huber, cauchy or tukey");
+DEFINE_double(loop_sigma_m,
+              0.1,
+              "Position noise of an inlier loop, per axis [m]");
+DEFINE_double(loop_sigma_deg,
+              0.5,
+              "Rotation noise of an inlier loop, per axis [deg]");
 DEFINE_double(inlier_probability,
               0.999999,
-              "Share of right loops that the bound lets by");
-DEFINE_uint64(seed, 0, "Of all that is drawn at random");
-DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+              "Share of inlier loops within the bound");
+DEFINE_uint64(seed, 0, "Random seed");
+DEFINE_int32(threads,
+             0,
+             "Threads; 0: one per core. Does not affect the result");
 DEFINE_string(output, "", "g2o file for poses, odometry and all loops");
 
 namespace {
@@ -40,13 +48,12 @@ namespace {
 using quatro::Fail;
 
 constexpr char kUsage[] =
-    "registers every two of many scans and finds the poses that most agree.\n"
+    "registers every pair of many scans and finds consistent poses.\n"
     "\n"
     "  quatro_scan_graph --scans=0.bin,1.bin,2.bin --odometry=odometry.g2o\n"
     "\n"
-    "Prints a line a loop, from,to,status,weight, and what was done. Exits "
-    "with\n"
-    "0; 1 if there is no answer; 2 if a flag or a file is wrong.";
+    "Prints a line per loop, from,to,status,weight, and a summary. Exits with\n"
+    "0; 1 if there is no answer; 2 if a flag or a file is invalid.";
 
 std::vector<std::string> SplitAtCommas(const std::string& text) {
   std::vector<std::string> parts;
@@ -105,7 +112,8 @@ int Main(int argc, char** argv) {
   std::vector<bool> is_reached(paths.size());
   for (const quatro::PoseEdge& edge : graph->edges) {
     if (!edge.IsOdometry()) {
-      return Fail(FLAGS_odometry + ": has an edge that is no odometry");
+      return Fail(FLAGS_odometry +
+                  ": has an edge that does not join consecutive poses");
     }
     is_reached[edge.to] = true;
   }
@@ -113,7 +121,7 @@ int Main(int argc, char** argv) {
     if (is_reached[i]) continue;
     return Fail(FLAGS_odometry + ": must have an edge from pose " +
                 std::to_string(graph->ids[i - 1]) + " to pose " +
-                std::to_string(graph->ids[i]) + ", which follows it");
+                std::to_string(graph->ids[i]) + " (the next one)");
   }
   std::vector<quatro::PointCloud> scans;
   for (const std::string& path : paths) {

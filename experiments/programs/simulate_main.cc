@@ -21,70 +21,71 @@
 #include "experiments/simulator/simulator.h"
 #include "experiments/simulator/worlds.h"
 
-DEFINE_string(output, "", "Folder to write; its parents are created. Required");
-DEFINE_uint64(seed, 1, "Of the street and the noise; same seed, same files");
+DEFINE_string(output, "", "Output folder; its parents are created. Required");
+DEFINE_uint64(seed,
+              1,
+              "Seed of world and noise; the same seed gives the same files");
 DEFINE_int32(num_frames,
              100,
-             "Scans to write; of a drive, 0: to the end of its way");
-DEFINE_double(frame_spacing, 1.0, "From one scan to the next [m]");
-DEFINE_double(slope_deg, 0.0, "Climb of the street [deg]");
+             "Scans to write; for a drive, 0: to the end of its path");
+DEFINE_double(frame_spacing, 1.0, "Distance between scans [m]");
+DEFINE_double(slope_deg, 0.0, "Slope of the street [deg]");
 DEFINE_double(tilt_sigma_deg,
               0.3,
-              "Standard deviation of the car's roll and pitch on its springs "
+              "Standard deviation of the car's roll and pitch (suspension) "
               "[deg]");
-DEFINE_int32(threads, 0, "0: one per core. The files don't depend on it");
+DEFINE_int32(threads, 0, "Threads; 0: one per core. Does not affect the files");
 DEFINE_string(
     protocol,
     "sequence",
     "sequence: along one street; drive: through a city or a building, "
     "see --drive; pairs: independent pairs of scans, each in "
-    "a world of its own; calibration: 1500 pairs of all worlds, half "
-    "of them without common ground");
+    "its own world; calibration: 1500 pairs of all worlds, half "
+    "of them without overlap");
 DEFINE_string(world,
               "street",
-              "Of pairs: street, crossing, hill, corridor, hall or symmetric");
+              "For pairs: street, crossing, hill, corridor, hall or symmetric");
 DEFINE_string(drive,
               "00",
-              "Of drives: 00, 02, 05, 06, 07, 08 (after KITTI's, in cities) or "
+              "For drives: 00, 02, 05, 06, 07, 08 (like KITTI's, in cities) or "
               "hd_b1 (in a building)");
 DEFINE_bool(sweep_motion,
             false,
-            "Of drives: points as the moving sensor saw them, not corrected");
+            "For drives: points as the moving sensor saw them, uncorrected");
 DEFINE_string(layout,
               "kitti",
-              "Of drives: kitti (velodyne/, poses.txt, oxts/) or naver "
-              "(sensors/, as NAVER LABS' data sets are)");
-DEFINE_int32(moving_cars, 15, "Of drives: other cars on the way");
-DEFINE_int32(pairs, 100, "Of pairs: how many");
-DEFINE_double(scale, 1.0, "Of calibration: that share of its 1500 pairs");
-DEFINE_double(min_distance, 0.0, "Of pairs: at least so far apart [m]");
-DEFINE_double(max_distance, 30.0, "Of pairs: at most so far apart [m]");
-DEFINE_double(max_yaw_deg, 180.0, "Of pairs: largest turn, either way [deg]");
-DEFINE_double(min_tilt_deg, 2.0, "Of pairs on hills: least tilt [deg]");
-DEFINE_double(max_tilt_deg, 15.0, "Of pairs on hills: largest tilt [deg]");
-DEFINE_bool(
-    no_overlap,
-    false,
-    "Of pairs: scans with nothing in common, of worlds that look alike");
+              "For drives: kitti (velodyne/, poses.txt, oxts/) or naver "
+              "(sensors/, as in NAVER LABS' data sets)");
+DEFINE_int32(moving_cars, 15, "For drives: number of other moving cars");
+DEFINE_int32(pairs, 100, "For pairs: number of pairs");
+DEFINE_double(scale, 1.0, "For calibration: factor on the 1500 pairs");
+DEFINE_double(min_distance, 0.0, "For pairs: minimum distance [m]");
+DEFINE_double(max_distance, 30.0, "For pairs: maximum distance [m]");
+DEFINE_double(max_yaw_deg, 180.0, "For pairs: maximum yaw, either way [deg]");
+DEFINE_double(min_tilt_deg, 2.0, "For pairs on hills: minimum tilt [deg]");
+DEFINE_double(max_tilt_deg, 15.0, "For pairs on hills: maximum tilt [deg]");
+DEFINE_bool(no_overlap,
+            false,
+            "For pairs: scans without overlap, of worlds that look alike");
 DEFINE_int32(features,
              -1,
-             "Of pairs in corridors: doors, niches, passages and the like; "
-             "negative: by the seed");
+             "For pairs in corridors: number of doors, niches, passages and "
+             "the like; negative: by the seed");
 DEFINE_string(
     sensor,
     "auto",
-    "Of pairs and drives: hdl64e, vlp16 or os1_64; auto: that of such places");
+    "For pairs and drives: hdl64e, vlp16 or os1_64; auto: the usual one");
 DEFINE_double(ins_std_deg,
               0.5,
-              "Of pairs: standard deviation of each angle of the INS [deg]");
+              "For pairs: standard deviation of each angle of the INS [deg]");
 DEFINE_double(ins_noise_deg,
               0.05,
-              "Of drives: the part of the INS' error that changes each frame, "
-              "standard deviation [deg]");
+              "For drives: standard deviation of the INS error that changes "
+              "in each frame [deg]");
 DEFINE_double(ins_bias_deg,
               0.3,
-              "Of drives: the part that does not, standard deviation [deg]");
-DEFINE_bool(overwrite, false, "Replace the sequence that --output holds");
+              "For drives: standard deviation of the constant INS error [deg]");
+DEFINE_bool(overwrite, false, "Replace an existing sequence in --output");
 
 namespace {
 
@@ -102,23 +103,24 @@ constexpr char kUsage[] =
     "\n"
     "  quatro_simulate --output=05 --protocol=drive --drive=05 --num_frames=0\n"
     "\n"
-    "The same layout, and the INS in oxts/data/0000000000.txt ... as KITTI "
-    "raw;\n"
-    "with --layout=naver that of NAVER LABS' data sets, in sensors/.\n"
+    "Writes the same layout, and the INS in oxts/data/0000000000.txt ... as\n"
+    "in KITTI raw. --layout=naver writes the layout of NAVER LABS' data sets,\n"
+    "in sensors/.\n"
     "\n"
     "  quatro_simulate --output=halls --protocol=pairs --world=hall "
     "--pairs=50\n"
     "  quatro_simulate --output=calibration --protocol=calibration "
     "--scale=0.1\n"
     "\n"
-    "Pairs of scans, each in a world of its own. Writes\n"
+    "Simulates pairs of scans, each in its own world. Writes\n"
     "        <set>/000000_source.bin <set>/000000_target.bin ...\n"
-    "        pairs.csv, pairs_negative.csv (of --no_overlap) for run_pairs.py\n"
-    "Called again, it makes the pairs that are missing.\n"
+    "        pairs.csv, pairs_negative.csv (for --no_overlap) for "
+    "run_pairs.py\n"
+    "Run the same command again to add missing pairs.\n"
     "\n"
-    "Exits with 0 if all was written, 2 if a flag is wrong or a file can't be\n"
-    "written; 3 if a sequence was stopped. Its folder is then as it was "
-    "before.";
+    "Exits with 0 if everything was written; 2 if a flag is invalid or a file\n"
+    "cannot be written; 3 if a sequence was interrupted. Its folder is then\n"
+    "restored.";
 
 constexpr double kDegree = M_PI / 180.0;
 
@@ -158,7 +160,7 @@ bool Names(std::string_view list, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// Whether the protocol is known and takes every flag that was given.
+// Returns whether the protocol is known and takes every given flag.
 bool IsProtocolValid(std::string* error) {
   if (!Names(kProtocols, FLAGS_protocol)) {
     *error = "--protocol=" + FLAGS_protocol + ", must be one of " +
@@ -171,18 +173,18 @@ bool IsProtocolValid(std::string* error) {
       continue;
     }
     *error = std::string("--") + name +
-             " does not go with --protocol=" + FLAGS_protocol +
+             " cannot be used with --protocol=" + FLAGS_protocol +
              ", only with: " + std::string(protocols);
     return false;
   }
   return true;
 }
 
-// Of a sequence that was not written to its end.
+// For a sequence that was not completed.
 int FailOrStop(const std::string& error) {
   if (!quatro::WasAskedToStop()) return quatro::Fail(error);
   quatro::EndProgressLine();
-  std::fprintf(stderr, "stopped; nothing is left of it\n");
+  std::fprintf(stderr, "interrupted; the partial sequence was removed\n");
   return quatro::kExitStopped;
 }
 
@@ -253,8 +255,7 @@ int Main(int argc, char** argv) {
   if (!IsProtocolValid(&error)) return Fail(error);
   if (FLAGS_protocol == "pairs") {
     const auto set = SetOfFlags();
-    if (!set)
-      return Fail("--world=" + FLAGS_world + ": there is no such world");
+    if (!set) return Fail("--world=" + FLAGS_world + " is not a world");
     return WriteSets({*set});
   }
   if (FLAGS_protocol == "calibration") {

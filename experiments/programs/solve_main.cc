@@ -24,37 +24,39 @@ DEFINE_string(correspondences,
               "",
               "CSV file of matched points, sx,sy,sz,tx,ty,tz [m] a line");
 DEFINE_string(preset, "kitti", "kitti, paper, reference or indoor");
-DEFINE_string(method,
-              "auto",
-              "How to solve; --list_methods says what there is");
-DEFINE_bool(list_methods, false, "Print the methods and end");
+DEFINE_string(method, "auto", "Method; see --list_methods");
+DEFINE_bool(list_methods, false, "List the methods and exit");
 DEFINE_string(recover,
               "",
-              "Translation again over all matches: on or off; empty: the "
+              "Re-estimate the translation: on or off; empty: the "
               "preset's");
 DEFINE_string(polish,
               "",
-              "Roll and pitch on the inliers: on or off; empty: the preset's");
+              "Polish roll and pitch: on or off; empty: the preset's");
 DEFINE_string(ins_mode,
               "none",
               "Roll and pitch from an INS: none, relative, leveled or fused");
 DEFINE_string(source_rpy_deg,
               "",
               "The INS' roll,pitch,yaw of the source [deg]; x ahead, z up");
-DEFINE_string(target_rpy_deg, "", "The same of the target [deg]");
+DEFINE_string(target_rpy_deg,
+              "",
+              "The INS' roll,pitch,yaw of the target [deg]");
 DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
-DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
+DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
 DEFINE_bool(crosscheck,
             false,
             "Solve every weighted subproblem by Ceres too and report the "
             "largest difference");
 DEFINE_double(noise_bound,
               0.0,
-              "How far a right match may be off [m]; 0: the preset's");
-DEFINE_uint64(seed, 0, "Of all that is drawn at random");
-DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+              "Largest error of an inlier [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Random seed");
+DEFINE_int32(threads,
+             0,
+             "Threads; 0: one per core. Does not affect the result");
 DEFINE_string(json, "", "File for the answer; empty: standard output");
 DEFINE_bool(explain,
             false,
@@ -74,13 +76,14 @@ std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
 }
 
 constexpr char kUsage[] =
-    "finds the pose between matched points, most of them wrong.\n"
+    "finds the pose between matched points, mostly outliers.\n"
     "\n"
     "  quatro_solve --correspondences=matches.csv --noise_bound=0.3\n"
     "\n"
     "The answer is JSON; target_from_source moves source points onto target\n"
     "points. Exits with 0 if registered; 1 if an answer can't be vouched for\n"
-    "(the JSON says why); 2 if a flag or a file is wrong (nothing is written\n"
+    "(the JSON says why); 2 if a flag or a file is invalid (nothing is "
+    "written\n"
     "then).";
 
 std::optional<quatro::RegistrationOptions> OptionsFromFlags(

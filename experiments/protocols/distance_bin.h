@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Pairs by how far apart they are, |t| in [min, max).
+// Bins of pairs by distance, |t| in [min, max).
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_DISTANCE_BIN_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_DISTANCE_BIN_H_
@@ -34,7 +34,7 @@ struct DistanceBin {
   }
 };
 
-// Those of the paper's Tables I and III.
+// The bins of the paper's Tables I and III.
 inline std::vector<DistanceBin> TableOneBins() { return {{9.0, 12.0}}; }
 inline std::vector<DistanceBin> TableThreeBins() {
   return {{0.0, 2.0}, {4.0, 6.0}, {8.0, 10.0}};

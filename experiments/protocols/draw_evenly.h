@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Some of many, spread over all of them.
+// Selects a subset that is spread evenly over the whole.
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_DRAW_EVENLY_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_DRAW_EVENLY_H_
@@ -13,7 +13,8 @@
 
 namespace quatro {
 
-// `max` of 0 .. n - 1 (all if max is 0 or n is not more), as even as can be:
+// Draws `max` of 0 .. n - 1 (all if max is 0 or n <= max), as evenly as
+// possible:
 //
 //   floor((k + u) n / max),  k = 0 .. max - 1,  u uniform in [0, 1).      (1)
 inline std::vector<std::size_t> DrawEvenly(std::size_t n,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Neighbours in a drive: frame i + k onto frame i, for an interval k. The
-// paper's odometry (Table II: k = 1, 3, 5) and its added yaw (k = 5) register
-// such pairs.
+// Pairs of neighboring frames in a drive: frame i + k to frame i, for an
+// interval k. The paper's odometry (Table II: k = 1, 3, 5) and its added yaw (k
+// = 5) register such pairs.
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_INTERVAL_PAIRS_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_INTERVAL_PAIRS_H_
@@ -20,13 +20,13 @@ namespace quatro {
 struct IntervalPairOptions {
   std::vector<int> intervals = {1, 3, 5};  // k
   int first_frame = 0;
-  int last_frame = -1;  // Of i + k; -1: the last.
+  int last_frame = -1;  // Limit of i + k; -1: no limit.
 
-  // i is a multiple of k more than first_frame, so that the pairs are a chain,
-  // as an odometry's are.
+  // If true, i - first_frame is a multiple of k, so that the pairs form a
+  // chain, as in an odometry.
   bool is_chain = false;
 
-  // Of each interval, drawn evenly by the seed; 0: as many as there are.
+  // The number of pairs per interval, drawn evenly by the seed; 0: all.
   int max_pairs = 0;
   uint64_t seed = 1;
 
@@ -34,9 +34,9 @@ struct IntervalPairOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Interval by interval, bins "interval 3". Pairs of which a frame has no pose
-// are counted before any are drawn, and are no tasks. Nullopt with *error set
-// if the options are invalid.
+// Pairs by interval, with bins "interval 3". Pairs with a frame without pose
+// are counted before drawing and left out. Returns nullopt with *error set if
+// the options are invalid.
 std::optional<PairSelection> SelectIntervalPairs(
     const SequenceData& data,
     const IntervalPairOptions& options,

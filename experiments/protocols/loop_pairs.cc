@@ -12,7 +12,7 @@
 namespace quatro {
 namespace {
 
-// One generator for each seed and bin.
+// One random generator for each seed and bin.
 Random RandomOf(uint64_t seed, const DistanceBin& bin) {
   const uint64_t key = Mix(Mix(seed) ^ std::bit_cast<uint64_t>(bin.min));
   return Random(Mix(key ^ std::bit_cast<uint64_t>(bin.max)));
@@ -101,7 +101,7 @@ std::vector<Loop> FindLoops(const SequenceData& data,
                        : places.back().path +
                              (pose.translation - places.back().position).norm();
     for (const Place& earlier : places) {
-      // Both only grow smaller from here on.
+      // Both gaps only shrink from here on.
       if (frame - earlier.frame <= options.min_frame_gap ||
           path - earlier.path < options.min_path) {
         break;

@@ -24,13 +24,13 @@ struct PlannedRun {
   const SequenceData* drive = nullptr;
   std::string method;
   int interval = 1;
-  std::map<int, std::string> scans;  // Of the frames that are wanted.
+  std::map<int, std::string> scans;  // Of the selected frames.
   std::vector<int> frames;
   std::vector<Rigid3> true_poses;
-  std::string path;  // Without its ending.
+  std::string path;  // Without file extension.
 };
 
-// Nullopt with *error set.
+// Returns nullopt with *error set if the run is not possible.
 std::optional<PlannedRun> Plan(const SequenceData& drive,
                                const std::string& method,
                                int interval,
@@ -76,7 +76,7 @@ Json DescribeRun(const PlannedRun& run) {
           {"last_frame", run.frames.back()}};
 }
 
-// What makes the run beside its description.
+// Writes the files of a completed run.
 bool WriteRun(const PlannedRun& plan,
               const OdometryRun& run,
               std::string* error) {
@@ -88,8 +88,8 @@ bool WriteRun(const PlannedRun& plan,
          WriteFileAtomically(plan.path + ".json", json.dump(2) + "\n", error);
 }
 
-// The result by the files of a run that is complete. Empty without *error if
-// there are none.
+// Reads the result of a completed run from its files. Returns nullopt without
+// *error if there are none.
 std::optional<OdometryResult> ReadRun(const PlannedRun& plan,
                                       std::string* error) {
   error->clear();
@@ -103,8 +103,8 @@ std::optional<OdometryResult> ReadRun(const PlannedRun& plan,
   const Json expected = DescribeRun(plan);
   for (const auto& [key, value] : expected.items()) {
     if (json.is_object() && json.value(key, Json()) == value) continue;
-    *error = plan.path + ".json: is of another run (" + key +
-             "); take another --output";
+    *error = plan.path + ".json: belongs to another run (" + key +
+             "); choose another --output";
     return std::nullopt;
   }
   const auto poses = ReadKittiPoses(plan.path + ".txt", error);
@@ -156,7 +156,7 @@ bool RunOne(const PlannedRun& plan,
 
 bool OdometryRunOptions::IsValid(std::string* error) const {
   if (methods.empty() || intervals.empty()) {
-    *error = methods.empty() ? "no method is named" : "there is no interval";
+    *error = methods.empty() ? "there is no method" : "there is no interval";
     return false;
   }
   for (const int interval : intervals) {

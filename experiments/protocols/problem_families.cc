@@ -17,7 +17,7 @@ namespace {
 constexpr double kHardRatio = 0.95;
 constexpr Eigen::Index kUsualNumber = 1000;
 
-// A step of a family: the problem of a seed.
+// One step of a family: generates the problem for a seed.
 struct Bin {
   std::string name;
   std::function<MatchedProblem(std::uint64_t seed)> draw;
@@ -117,12 +117,12 @@ bool FamilyOptions::IsValid(std::string* error) const {
       *error = "there is no family " + name + ", only";
       for (const std::string& other : known) *error += " " + other;
     } else if (std::count(families.begin(), families.end(), name) > 1) {
-      *error = "family " + name + " comes twice";
+      *error = "family " + name + " is listed twice";
     }
   }
   if (!error->empty()) return false;
   if (families.empty()) {
-    *error = "no family is named";
+    *error = "there is no family";
   } else if (num_problems < 1) {
     *error =
         "num_problems = " + std::to_string(num_problems) + ", must be >= 1";
@@ -143,7 +143,8 @@ std::optional<PairSelection> SelectProblems(const FamilyOptions& options,
         });
     for (const Bin& bin : family->make_bins(options.noise_bound)) {
       for (int i = 0; i < options.num_problems; ++i) {
-        // The same for all bins, so that steps differ by their screw alone.
+        // The same seed for all bins, so that bins differ only in the varied
+        // parameter.
         const std::uint64_t seed =
             Mix(options.seed) + static_cast<std::uint64_t>(i);
         PairTask task;

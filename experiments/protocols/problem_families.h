@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Families of matched points (experiments/simulator/synthetic.h) as tasks, for
-// the protocol `synthetic`: each family turns one screw, a bin a step. With c
-// the noise bound, noise is of sigma = c / 3 but where it is what is turned:
+// Families of matched points (experiments/simulator/synthetic.h) as tasks for
+// the protocol `synthetic`. Each family varies one parameter, with one bin per
+// step. With the noise bound c, the noise is sigma = c / 3 unless it is varied:
 //
-//   outliers       50, 80, 90, 95, 98 and 99 % wrong of 1000 matches
-//   noise          sigma = c/12, c/6, c/3, 2c/3; 95 % wrong of 1000
-//   matches        100, 300, 1000, 3000 and 10000 of them, 95 % wrong
-//   degeneracy     1, 2, 3, 5 and 10 true of 50, no wrong two consistent
-//   quasi_inliers  20, 60 and 180 right in x and y alone, beside 20 true of 500
+//   outliers       50, 80, 90, 95, 98 and 99 % outliers in 1000 matches
+//   noise          sigma = c/12, c/6, c/3, 2c/3; 95 % outliers in 1000
+//   matches        100, 300, 1000, 3000 and 10000 of them, 95 % outliers
+//   degeneracy     1, 2, 3, 5 and 10 inliers of 50, no two outliers consistent
+//   quasi_inliers  20, 60 and 180 matches correct only in x and y, beside 20
+//                  inliers of 500
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_PROBLEM_FAMILIES_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_PROBLEM_FAMILIES_H_
@@ -26,7 +27,7 @@ std::vector<std::string> FamilyNames();
 
 struct FamilyOptions {
   std::vector<std::string> families = FamilyNames();
-  int num_problems = 20;     // Of each bin.
+  int num_problems = 20;     // Per bin.
   double noise_bound = 0.3;  // c [m]
   std::uint64_t seed = 1;
 
@@ -34,8 +35,8 @@ struct FamilyOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Tasks "outliers/95 % outliers/7", of the set "outliers" and the bin
-// "95 % outliers". Nullopt with *error set if the options are invalid.
+// Tasks such as "outliers/95 % outliers/7", of the set "outliers" and the bin
+// "95 % outliers". Returns nullopt with *error set if the options are invalid.
 std::optional<PairSelection> SelectProblems(const FamilyOptions& options,
                                             std::string* error);
 

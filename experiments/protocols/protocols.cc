@@ -104,7 +104,7 @@ std::optional<std::vector<DistanceBin>> ParseBins(const std::string& text,
     const auto max =
         ends.size() == 2 ? ParseFiniteNumber(ends[1]) : std::nullopt;
     if (!min || !max) {
-      *error = Quoted(field) + " is no bin, must be like 4-6";
+      *error = Quoted(field) + " is not a bin, must be like 4-6";
       return std::nullopt;
     }
     bins.push_back({*min, *max});

@@ -60,7 +60,7 @@ bool HasRightTranslation(const PoseSummary& summary,
                                        .norm() <= kTranslationTolerance;
 }
 
-// How often each of several solvers was right.
+// Counts correct results of a solver.
 struct Tally {
   int num_answers = 0;
   int num_right_rotations = 0;
@@ -140,8 +140,8 @@ Table RunTimProtocol(int num_seeds, const Progress& progress) {
   const std::vector<double> ratios = {0.95, 0.98, 0.99};
   const int num_problems = static_cast<int>(ratios.size()) * num_seeds;
   Table table{{"outliers",
-               "gnc right",
-               "exact right",
+               "gnc correct",
+               "exact correct",
                "gnc ms",
                "exact ms",
                "largest gap",
@@ -199,12 +199,12 @@ Table RunTimProtocol(int num_seeds, const Progress& progress) {
 
 Table RunDegeneracyProtocol(int num_seeds, const Progress& progress) {
   constexpr double kNoiseBound = 0.3;
-  constexpr double kTolerance = 5.0 * kDegree;  // Two matches hold no more.
+  constexpr double kTolerance = 5.0 * kDegree;  // Two matches allow no better.
   const std::vector<Eigen::Index> num_true = {1, 2, 3, 5};
   const auto solvers = SolversAt(kNoiseBound);
   const int num_problems = static_cast<int>(num_true.size()) * num_seeds;
   Table table{
-      {"estimator", "true of 50", "answers", "right rotation", "registered"},
+      {"estimator", "true of 50", "answers", "correct rotation", "registered"},
       {}};
   std::vector<std::vector<Tally>> tallies(solvers.size(),
                                           std::vector<Tally>(num_true.size()));
@@ -238,8 +238,8 @@ Table RunDegeneracyProtocol(int num_seeds, const Progress& progress) {
 }
 
 Table RunQuasiInlierProtocol(int num_seeds, const Progress& progress) {
-  // How well z is told apart depends on the noise: both a tight and a loose
-  // bound are shown.
+  // The noise bound determines how well z can be distinguished, so the table
+  // shows a tight and a loose bound.
   const std::vector<double> noise_bounds = {0.1, 0.3};
   const std::vector<Eigen::Index> num_quasi = {20, 60, 180};
   const int num_problems =
@@ -247,8 +247,8 @@ Table RunQuasiInlierProtocol(int num_seeds, const Progress& progress) {
   Table table{{"estimator",
                "noise bound m",
                "true/quasi",
-               "right rotation",
-               "right translation"},
+               "correct rotation",
+               "correct translation"},
               {}};
   int num_done = 0;
   for (const double noise_bound : noise_bounds) {
@@ -293,7 +293,7 @@ Table RunSizeProtocol(int num_seeds,
   const std::vector<double> ratios = {0.95, 0.99};
   const int num_problems =
       static_cast<int>(sizes.size() * ratios.size()) * num_seeds;
-  Table table{{"matches", "outliers", "right", "median ms"}, {}};
+  Table table{{"matches", "outliers", "correct", "median ms"}, {}};
   int num_done = 0;
   for (const long size : sizes) {
     for (const double ratio : ratios) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Tables of how estimators do on the families of
+// Tables of the performance of estimators on the families of
 // experiments/simulator/synthetic.h.
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_SYNTHETIC_PROTOCOLS_H_
@@ -12,32 +12,34 @@
 
 namespace quatro {
 
-// Called with the problems solved so far and in all.
+// Called with the number of problems solved so far and the total.
 using Progress = std::function<void(int num_done, int num_problems)>;
 
-// Times the kinds of problems of any protocol it is an int still.
+// Multiplied by the number of kinds of problems of any protocol, this fits an
+// int.
 inline constexpr int kMaxSeeds = 1'000'000;
 
 // The surrogates of truncated least squares over the residual, for the figure.
 Table TabulateSurrogates();
 
-// Yaw from TIMs at 95, 98 and 99 % outliers: GNC beside the exact sweep.
+// Yaw from TIMs at 95, 98 and 99 % outliers: GNC and the exact sweep.
 Table RunTimProtocol(int num_seeds, const Progress& progress);
 
-// 50 matches of which 1, 2, 3 or 5 are true: the paper's degeneracy.
+// 50 matches with 1, 2, 3 or 5 inliers: the paper's degeneracy.
 Table RunDegeneracyProtocol(int num_seeds, const Progress& progress);
 
-// 500 matches, 20 true and 20, 60 or 180 right in xy and wrong in z.
+// 500 matches: 20 inliers, and 20, 60 or 180 correct in xy but not in z.
 Table RunQuasiInlierProtocol(int num_seeds, const Progress& progress);
 
-// Arc consensus from a thousand to `max_num_matches`, at 95 and 99 %.
+// Arc consensus on 1000 to `max_num_matches` matches, at 95 and 99 % outliers.
 Table RunSizeProtocol(int num_seeds,
                       long max_num_matches,
                       int num_threads,
                       const Progress& progress);
 
-// Slopes of 2, 5, 10 and 15 deg with an INS that is off by 0.3 deg: Quatro
-// without and with it, in its three ways, without and with the polish.
+// Slopes of 2, 5, 10 and 15 deg with an INS whose error is 0.3 deg: Quatro
+// without INS and with each of the three INS modes, without and with the
+// polish.
 Table RunSlopeProtocol(int num_seeds, const Progress& progress);
 
 }  // namespace quatro

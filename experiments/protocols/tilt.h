@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How much less than its heading the rest of a ground vehicle's rotation
-// changes between two visits of a place, on which the paper builds. The true
-// rotation of a pair is split as
+// The relative tilt between two visits of a place. The paper assumes that a
+// ground vehicle's rotation changes mostly in heading. The true rotation of a
+// pair is split as
 //
 //   R = R_z(yaw) R_y(pitch) R_x(roll),   tilt = angle of R_y(pitch) R_x(roll),
 //
-// which is an angle of 0 .. pi; yaw is in [-pi, pi].
+// where the tilt is in [0, pi] and yaw in [-pi, pi].
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_TILT_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_TILT_H_
@@ -28,13 +28,13 @@ struct RelativeTilting {
   double tilt = 0.0;   // [rad]
 };
 
-// Of all loops in the bin.
+// The tilts of all loops in the bin.
 std::vector<RelativeTilting> MeasureTilts(const SequenceData& data,
                                           const DistanceBin& bin,
                                           const LoopOptions& options);
 
-// A line of CSV each, under one of names: set, source, target, distance_m,
-// yaw_deg, rollpitch_deg, roll_deg, pitch_deg.
+// CSV with a header line: set, source, target, distance_m, yaw_deg,
+// rollpitch_deg, roll_deg, pitch_deg.
 std::string FormatTilts(const std::vector<RelativeTilting>& tilts);
 
 }  // namespace quatro

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Bytes as text, as in RFC 4648, section 4.
+// Encodes bytes as text by RFC 4648, section 4.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_BASE64_H_
 #define QUATRO_EXPERIMENTS_REPORT_BASE64_H_

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// page/ and three.js as one file without data, for report_page.h to fill.
+// Bundles page/ and three.js into one file without data; report_page.h fills in
+// the data.
 //   node build_template.mjs OUTPUT
 
 import {build} from 'esbuild';
@@ -25,7 +26,8 @@ async function bundle(name) {
   return result.outputFiles[0].text;
 }
 
-// A function as replacement: "$&" in a script is no pattern.
+// A function as replacement, because "$&" in a replacement string would be
+// interpreted.
 let text = readFileSync(join(page, 'report.html'), 'utf8');
 for (const [mark, name] of [['@@QUATRO_STYLE@@', 'report.css'], ['@@QUATRO_SCRIPT@@', 'main.js']]) {
   const content = await bundle(name);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Which matches outlive which stage of a method.
+// The stages of a method that each match passes.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_MATCH_STAGES_H_
 #define QUATRO_EXPERIMENTS_REPORT_MATCH_STAGES_H_
@@ -11,16 +11,16 @@
 
 namespace quatro {
 
-// Bits of a match's fate. One that agrees with the pose need not be consistent:
-// the pose is judged on all of them.
+// Bits of a match's fate. An inlier of the pose need not be in the consistent
+// set, because the pose is evaluated on all matches.
 inline constexpr int kIsConsistent = 1;
 inline constexpr int kIsInlier = 2;
 
 struct MatchStages {
-  std::vector<int> fates;  // Of each match.
+  std::vector<int> fates;  // Per match.
 
-  // Of each match, in [0, 1], 0 of those that are not consistent
-  // (PoseSummary::match_weights). Empty if the method has none.
+  // Per match, in [0, 1]; 0 for matches that are not consistent
+  // (PoseSummary::match_weights). Empty if the method has no weights.
   std::vector<double> weights;
 };
 
@@ -29,11 +29,11 @@ MatchStages FindMatchStages(const RegistrationSummary& summary);
 struct StageCounts {
   long matches = 0;
   long consistent = 0;
-  long weighted = 0;  // Of weight 0.5 or more.
+  long weighted = 0;  // With weight >= 0.5.
   long inliers = 0;
 };
 
-// Of the matches for which `is_counted`, or of all if it is empty.
+// Counts the matches for which `is_counted` is set, or all if it is empty.
 StageCounts CountStages(const MatchStages& stages,
                         const std::vector<bool>& is_counted);
 

@@ -10,7 +10,7 @@
 namespace quatro {
 namespace {
 
-// A megabyte in all.
+// About a megabyte in total.
 constexpr Eigen::Index kMaxPoints = 30'000;
 constexpr Eigen::Index kMaxMatches = 5'000;
 

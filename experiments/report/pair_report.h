@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The report of a single pair: its 3D view in more detail, no tables.
+// The report of a single pair: its 3D view in more detail, without tables.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_PAIR_REPORT_H_
 #define QUATRO_EXPERIMENTS_REPORT_PAIR_REPORT_H_
@@ -12,8 +12,8 @@
 
 namespace quatro {
 
-// The page, an HTML file's text. Of the pair, the clouds are thinned to their
-// voxels of `voxel_size` [m] first.
+// Returns the text of an HTML file. The clouds are first downsampled to voxels
+// of `voxel_size` [m].
 std::string FormatPairReport(ViewedPair pair,
                              double voxel_size,
                              const MethodAnswer& answer,

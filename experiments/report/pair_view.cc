@@ -39,7 +39,7 @@ bool HasSameMatches(const RegistrationSummary& a,
          a.matched_target == b.matched_target;
 }
 
-// The answer whose matches are drawn; a nullptr if there are none.
+// The answer whose matches are drawn; nullptr if there is none.
 const RegistrationSummary* FindMatched(
     const std::vector<MethodAnswer>& answers) {
   for (const MethodAnswer& answer : answers) {
@@ -48,7 +48,7 @@ const RegistrationSummary* FindMatched(
   return nullptr;
 }
 
-// Those that are drawn: of what any method kept first, then of the others.
+// The matches to draw: first those that any method kept, then others.
 Indices ChooseMatches(const RegistrationSummary& matched,
                       const std::vector<MethodAnswer>& answers,
                       const ViewOptions& options) {
@@ -135,7 +135,7 @@ Json Describe(const MethodAnswer& answer, const Json& stages) {
           {"stages", stages}};
 }
 
-// A cloud and its matched points, in one grid.
+// A cloud and its matched points on one grid.
 struct DrawnCloud {
   Json cloud;
   Json matched;
@@ -169,13 +169,13 @@ bool ViewOptions::IsValid(std::string* error) const {
 
 ViewOptions MakeViewOptions(std::size_t num_pairs, std::size_t num_methods) {
   constexpr double kPageBytes = 24e6;
-  constexpr double kMethodBytes = 1500.0;  // But for its matches.
+  constexpr double kMethodBytes = 1500.0;  // Without its matches.
   const auto num = static_cast<double>(num_methods);
   const double bytes =
       kPageBytes / static_cast<double>(std::max<std::size_t>(num_pairs, 1)) -
       kMethodBytes * num;
-  // In base64 a point of both clouds takes 16 bytes, a match as much and 3 more
-  // for each method.
+  // In base64, one point of both clouds takes 16 bytes; a match takes as much,
+  // plus 3 bytes per method.
   ViewOptions options;
   options.max_points =
       static_cast<Eigen::Index>(std::clamp(0.7 * bytes / 16.0, 500.0, 6000.0));
@@ -214,7 +214,7 @@ std::string FormatPairView(const ViewedPair& pair,
       {"truth", Rows(pair.true_target_from_source)},
       {"matches", {{"source", source.matched}, {"target", target.matched}}},
       {"methods", methods}};
-  // What is not UTF-8 is replaced rather than thrown at.
+  // Replaces invalid UTF-8 instead of throwing.
   return view.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -1,30 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What the 3D view of a report shows of a pair, as JSON: both clouds thinned,
-// the matches, and of each method which matches outlived which stage,
+// The data of a pair for the 3D view of a report, as JSON: both thinned clouds,
+// the matches, and for each method the stages that each match passed,
 //
-//   pair, files      its name; the source's and the target's
-//   source, target   points: how many there are; origin [m], step [m], xyz:
-//   some
-//                    of them (quantized_points.h), in base64
+//   pair, files      name; files of source and target
+//   source, target   points: their number; origin [m], step [m], xyz: some of
+//                    them (quantized_points.h), in base64
 //   truth            4 x 4 rows, or null
-//   matches          source, target: as xyz above, in the cloud's own grid
+//   matches          source, target: like xyz above, on the cloud's own grid
 //   methods          name, status, reason, pose (4 x 4 rows or null), notes,
 //                    features (of the verdict), and stages
 //
-// with, of `stages`, which is null for a method that has other matches than the
-// first one, or none,
+// `stages` is null for a method without matches or with other matches than the
+// first method. Otherwise it has
 //
-//   fate     a byte a match: 1 in the consistent set, 2 agrees with the pose
-//   weight   a byte a match, 255 for 1: PoseSummary::match_weights; null if the
-//            method has none
-//   counts   matches, consistent, weighted (of weight 0.5 or more), agreeing:
-//   of
-//            all matches, not of those that are drawn alone
-//   right    how many of each are within the noise bound of the truth; or null
+//   fate     one byte per match: bit 1 in the consistent set, bit 2 an inlier
+//   weight   one byte per match, 255 for 1: PoseSummary::match_weights; null if
+//            the method has none
+//   counts   matches, consistent, weighted (weight >= 0.5), inliers: of all
+//            matches, not only of those drawn
+//   right    the numbers of these that are correct, within the noise bound of
+//            the true pose; or null
 //
-// Agreeing matches need not be consistent: the pose is judged on all of them.
-// No times: the same run gives the same view, byte for byte.
+// Inliers need not be in the consistent set, because the pose is evaluated on
+// all matches. There are no times: the same run gives the same view, byte for
+// byte.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_PAIR_VIEW_H_
 #define QUATRO_EXPERIMENTS_REPORT_PAIR_VIEW_H_
@@ -43,9 +43,9 @@
 namespace quatro {
 
 struct ViewOptions {
-  Eigen::Index max_points = 2000;  // Of each cloud.
+  Eigen::Index max_points = 2000;  // Per cloud.
 
-  // At most three quarters of them of matches that any method kept.
+  // At most three quarters of these are matches that some method kept.
   Eigen::Index max_matches = 600;
 
   std::uint64_t seed = 0;
@@ -54,7 +54,8 @@ struct ViewOptions {
   bool IsValid(std::string* error) const;
 };
 
-// For so many pairs on one page, of 25 MB or so at most: the fewer, the finer.
+// For this many pairs on one page of at most about 25 MB; fewer pairs get more
+// detail.
 ViewOptions MakeViewOptions(std::size_t num_pairs, std::size_t num_methods);
 
 struct ViewedPair {
@@ -64,7 +65,7 @@ struct ViewedPair {
   Points source;  // [m], each in its own frame.
   Points target;
   std::optional<Rigid3> true_target_from_source;
-  double noise_bound = 0.3;  // [m], of a right match on each axis.
+  double noise_bound = 0.3;  // [m], of an inlier, on each axis.
 };
 
 struct MethodAnswer {

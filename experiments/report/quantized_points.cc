@@ -20,7 +20,7 @@ PointGrid FindGrid(const PointsRef& points) {
   if (points.cols() == 0) return grid;
   const Eigen::Vector3d low = points.rowwise().minCoeff();
   const Eigen::Vector3d high = points.rowwise().maxCoeff();
-  // Not (low + high) / 2, which may overflow.
+  // This avoids the overflow of (low + high) / 2.
   grid.origin = low + 0.5 * (high - low);
   const double half =
       (high - grid.origin).cwiseMax(grid.origin - low).maxCoeff();

@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegree = M_PI / 180.0;
 
-// As JSON, in which "<" comes in strings alone, where it may be written so: an
-// HTML parser then finds neither tags nor comments.
+// In JSON, "<" occurs only in strings, where it can be escaped. An HTML parser
+// then finds neither tags nor comments.
 std::string EscapeJson(std::string_view json) {
   std::string escaped;
   escaped.reserve(json.size());
@@ -53,12 +53,12 @@ std::string EscapeHtml(std::string_view text) {
   return escaped;
 }
 
-// What is not UTF-8 is replaced rather than thrown at.
+// Replaces invalid UTF-8 instead of throwing.
 std::string Dump(const Json& json) {
   return EscapeJson(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-// Six digits are more than anyone reads.
+// Rounds to six digits, enough for any reader.
 Json Rounded(const std::optional<double>& value) {
   if (!value || !std::isfinite(*value)) return nullptr;
   char text[32];
@@ -133,7 +133,8 @@ Json DescribePairs(const std::vector<PairResult>& results,
           {"rows", rows}};
 }
 
-// Of what comes first in the list, as much as fits into the bytes left.
+// The number of items, from the start of the list, that fit into the remaining
+// bytes.
 template <typename Item, typename SizeOf>
 std::size_t CountFitting(const std::vector<Item>& items,
                          const SizeOf& size_of,
@@ -158,7 +159,7 @@ std::string ViewElement(const std::string& json, std::size_t index) {
          std::to_string(index) + "\">" + json + "</script>\n";
 }
 
-// The marks come once each and in order.
+// Each mark occurs once and in order.
 std::string FillTemplate(std::string_view text,
                          const std::string& title,
                          const std::string& data,
@@ -192,11 +193,11 @@ std::string FormatReportPage(const ReportPage& page,
   if (page.results.size() > limits.max_rows) {
     data["notes"].push_back(NoteLeftOut(limits.max_rows,
                                         page.results.size(),
-                                        "rows of pairs are here; all are in "
+                                        "rows of pairs are shown; all are in "
                                         "results.csv."));
   }
 
-  constexpr std::size_t kMargin = 10'000;  // Of notes and elements.
+  constexpr std::size_t kMargin = 10'000;  // For notes and elements.
   const std::size_t used = report_template.size() + Dump(data).size() + kMargin;
   std::size_t bytes_left =
       limits.max_bytes > used ? limits.max_bytes - used : 0;
@@ -212,7 +213,7 @@ std::string FormatReportPage(const ReportPage& page,
   }
   if (num_figures < page.figures.size()) {
     data["notes"].push_back(
-        NoteLeftOut(num_figures, page.figures.size(), "figures are here."));
+        NoteLeftOut(num_figures, page.figures.size(), "figures are included."));
   }
   std::vector<std::string> escaped;
   for (const ReportView& view : page.views) {
@@ -224,7 +225,7 @@ std::string FormatReportPage(const ReportPage& page,
       &bytes_left);
   if (num_views < escaped.size()) {
     data["notes"].push_back(NoteLeftOut(
-        num_views, escaped.size(), "pairs that were kept are here in 3D."));
+        num_views, escaped.size(), "stored 3D views are included."));
   }
   std::string views;
   for (std::size_t i = 0; i < num_views; ++i) {

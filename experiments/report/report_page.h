@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One HTML file that tells a run: opens from disk, without a network. Data are
-// JSON in elements that a browser does not look into; of the 3D views each is
-// parsed when its pair is opened.
+// A run as one HTML file, which opens from disk without a network. The data are
+// JSON in elements that the browser does not parse; each 3D view is parsed when
+// its pair is opened.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_REPORT_PAGE_H_
 #define QUATRO_EXPERIMENTS_REPORT_REPORT_PAGE_H_
@@ -19,7 +19,7 @@ namespace quatro {
 
 struct ReportView {
   std::string pair;
-  std::string json;  // Of FormatPairView().
+  std::string json;  // From FormatPairView().
 };
 
 struct ReportFigure {
@@ -38,12 +38,14 @@ struct ReportPage {
 };
 
 struct PageLimits {
-  // What does not fit is left out, last views first, and the page says so.
+  // Content that does not fit is left out, starting with the last views, and
+  // the page says so.
   std::size_t max_bytes = 29'000'000;
-  std::size_t max_rows = 50'000;  // Of the table of pairs.
+  std::size_t max_rows = 50'000;  // In the table of pairs.
 };
 
-// Any text may be in any name. `report_template` of ReadReportTemplate().
+// Names may contain any text. `report_template` comes from
+// ReadReportTemplate().
 std::string FormatReportPage(const ReportPage& page,
                              const std::string& report_template,
                              const PageLimits& limits = {});

@@ -13,7 +13,8 @@ std::optional<std::string> ReadReportTemplate(std::string* error) {
   auto text = ReadWholeFile(path, error);
   if (!text) {
     *error =
-        "no report can be written, quatro was built without node and npm; "
+        "no report can be written because quatro was built without node and "
+        "npm; "
         "install them, run third_party/install.sh, configure and build again";
     return std::nullopt;
   }
@@ -21,7 +22,8 @@ std::optional<std::string> ReadReportTemplate(std::string* error) {
   for (const std::string_view mark : {kTitleMark, kDataMark, kViewsMark}) {
     at = text->find(mark, at);
     if (at == std::string::npos) {
-      *error = path + ": has no " + std::string(mark) + "; build quatro again";
+      *error = path + ": does not contain " + std::string(mark) +
+               "; build quatro again";
       return std::nullopt;
     }
   }

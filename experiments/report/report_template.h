@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The page without data: page/ and three.js in one file, made by
-// build_template.mjs when quatro is built.
+// The page without data: page/ and three.js in one file, built by
+// build_template.mjs together with quatro.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_REPORT_TEMPLATE_H_
 #define QUATRO_EXPERIMENTS_REPORT_REPORT_TEMPLATE_H_
@@ -12,12 +12,13 @@
 
 namespace quatro {
 
-// The three marks, each once and in this order, in place of data.
+// The three marks that are replaced by data, each once and in this order.
 inline constexpr std::string_view kTitleMark = "@@QUATRO_TITLE@@";
 inline constexpr std::string_view kDataMark = "@@QUATRO_DATA@@";
 inline constexpr std::string_view kViewsMark = "@@QUATRO_VIEWS@@";
 
-// Nullopt, with *error saying what to install, where quatro was built without.
+// Returns nullopt, with *error saying what to install, if quatro was built
+// without the template.
 std::optional<std::string> ReadReportTemplate(std::string* error);
 
 }  // namespace quatro

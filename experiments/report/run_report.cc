@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the pairs that kept one, in the order of the results.
+// The views of the pairs that have one, in the order of the results.
 std::vector<ReportView> ReadViews(const std::string& folder,
                                   const std::vector<PairResult>& results) {
   std::vector<ReportView> views;
@@ -52,7 +52,7 @@ std::vector<ReportFigure> ReadFigures(const std::string& folder) {
   return figures;
 }
 
-// "kitti" of "runs/kitti/".
+// Returns "kitti" for "runs/kitti/".
 std::string NameOf(const std::string& folder) {
   const fs::path path = fs::absolute(folder).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();

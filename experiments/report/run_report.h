@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// report.html of a run's folder, from its manifest, results, tables, views and
-// the figures in it.
+// Writes report.html into a run's folder, from its manifest, results, tables,
+// views and figures.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_RUN_REPORT_H_
 #define QUATRO_EXPERIMENTS_REPORT_RUN_REPORT_H_
@@ -16,9 +16,9 @@
 namespace quatro {
 
 // Figures are the .png files in the folder itself and in figures/, where
-// draw_experiment.py puts them; the same command a second time takes up those
-// that were drawn since. Returns false and sets *error if the manifest can't be
-// read or the page can't be written.
+// draw_experiment.py writes them. Running the same command again includes new
+// figures. Returns false and sets *error if the manifest cannot be read or the
+// page cannot be written.
 bool WriteRunReport(const std::string& folder,
                     const std::vector<PairResult>& results,
                     const std::vector<SuccessLimit>& limits,

@@ -1,8 +1,8 @@
-# report_template.html, bin/../share/quatro/ of the build and of an install. What
-# it is bundled with is in node_modules, where third_party/install.sh puts it:
-# nothing is downloaded while building.
+# Builds report_template.html in bin/../share/quatro/, for the build and for an
+# install. Its dependencies are in node_modules, where third_party/install.sh
+# puts them: nothing is downloaded while building.
 set(QUATRO_REPORT AUTO CACHE STRING
-    "The template of HTML reports: ON, OFF, or AUTO, if Node.js and its packages are there")
+    "Build the template of HTML reports: ON, OFF, or AUTO (if Node.js and its packages are installed)")
 set(report "${CMAKE_CURRENT_SOURCE_DIR}/report")
 find_program(QUATRO_NODE NAMES node nodejs)
 set(has_packages OFF)
@@ -14,9 +14,9 @@ if(QUATRO_NODE AND EXISTS "${report}/node_modules/three")
   endif()
 endif()
 if(QUATRO_REPORT STREQUAL AUTO AND NOT has_packages)
-  message(STATUS "No Node.js or packages of it (third_party/install.sh): no HTML reports")
+  message(STATUS "Node.js or its packages not found (see third_party/install.sh): no HTML reports")
 elseif(QUATRO_REPORT AND NOT has_packages)
-  message(FATAL_ERROR "QUATRO_REPORT=ON needs Node.js and its packages: third_party/install.sh")
+  message(FATAL_ERROR "QUATRO_REPORT=ON needs Node.js and its packages: run third_party/install.sh")
 elseif(QUATRO_REPORT)
   set(template "${PROJECT_BINARY_DIR}/share/quatro/report_template.html")
   file(GLOB pages CONFIGURE_DEPENDS "${report}/page/*")
@@ -25,7 +25,7 @@ elseif(QUATRO_REPORT)
     COMMAND ${CMAKE_COMMAND} -E make_directory "${PROJECT_BINARY_DIR}/share/quatro"
     COMMAND ${QUATRO_NODE} "${report}/build_template.mjs" "${template}"
     DEPENDS ${pages} "${report}/build_template.mjs" "${report}/package-lock.json"
-    COMMENT "The template of HTML reports" VERBATIM)
+    COMMENT "Building the template of HTML reports" VERBATIM)
   add_custom_target(quatro_report_template ALL DEPENDS "${template}")
   add_dependencies(quatro_experiment quatro_report_template)
   add_dependencies(quatro_register quatro_report_template)

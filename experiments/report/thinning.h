@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Some of many, drawn evenly.
+// Draws a random subset of indices.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_THINNING_H_
 #define QUATRO_EXPERIMENTS_REPORT_THINNING_H_
@@ -11,13 +11,14 @@
 
 namespace quatro {
 
-// `max_count` of the indices, or all if there are no more, in ascending order.
-// Every subset is as likely; the same for the same indices and seed.
+// Returns `max_count` of the indices, or all if there are no more, in ascending
+// order. Every subset has the same probability. The result depends only on the
+// indices and the seed.
 std::vector<Eigen::Index> Thin(const std::vector<Eigen::Index>& indices,
                                Eigen::Index max_count,
                                std::uint64_t seed);
 
-// Of 0 .. count - 1.
+// Thins the indices 0 .. count - 1.
 std::vector<Eigen::Index> ThinRange(Eigen::Index count,
                                     Eigen::Index max_count,
                                     std::uint64_t seed);

@@ -15,7 +15,7 @@
 namespace quatro {
 namespace {
 
-// "model name	: Fancy CPU"
+// Reads a line such as "model name        : Fancy CPU".
 std::string CpuModel() {
   std::ifstream file("/proc/cpuinfo");
   std::string line;

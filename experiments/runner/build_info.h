@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What this program was built from and by, and what it runs on.
+// The source and compiler of this program, and the machine on which it runs.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_BUILD_INFO_H_
 #define QUATRO_EXPERIMENTS_RUNNER_BUILD_INFO_H_
@@ -11,8 +11,8 @@ namespace quatro {
 
 struct BuildInfo {
   std::string version;   // "0.1.0"
-  std::string commit;    // 12 digits, "-dirty" after them if files differ from
-                         // it; "unknown" if not built in a clone.
+  std::string commit;    // 12 digits, then "-dirty" if files differ from it;
+                         // "unknown" if not built in a clone.
   std::string compiler;  // "gcc 12.2.0, Release"
 };
 

@@ -1,5 +1,6 @@
-# Writes the commit of SOURCE into the header OUTPUT, which is touched only if
-# it changes: "dirty" after it if tracked files do; "unknown" without git.
+# Writes the commit of SOURCE into the header OUTPUT, which is modified only if
+# the text changes. "-dirty" follows the commit if tracked files differ from it;
+# the commit is "unknown" without git.
 #   cmake -DSOURCE=. -DOUTPUT=commit_text.h -P commit.cmake
 set(commit "unknown")
 find_program(GIT git)
@@ -7,7 +8,7 @@ if(GIT)
   execute_process(COMMAND "${GIT}" -C "${SOURCE}" rev-parse --show-toplevel
                   OUTPUT_VARIABLE top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   file(REAL_PATH "${SOURCE}" source)
-  # Not that of a repository this one was unpacked into.
+  # Ignore a repository into which this source was unpacked.
   if(top)
     file(REAL_PATH "${top}" top)
   endif()

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Whether a run goes on with the data it began with. Scans are many gigabytes,
-// so they are told by name and size; lists of pairs and poses, which decide
-// what is right, by what they hold. FNV-1a of 64 bits over
+// Checksum that detects whether a run resumes with the data it started with.
+// Scans are many gigabytes, so only their names and sizes are used. Lists of
+// pairs and poses, which define the ground truth, are hashed. The checksum is
+// FNV-1a of 64 bits over
 //
-//   name 0 size 0   of each scan in the order of names, "missing" for its size
-//                   if there is none,
-//   name 0 hash 0   of each list, in the order of names:
+//   name 0 size 0   of each scan, in the order of names, with "missing" for
+//                   the size if there is no file,
+//   name 0 hash 0   of each list, in the order of names.
 //
-// it finds accidents, not forgery. It depends on neither the folder's place nor
-// the order in which files are given.
+// It detects accidental changes, not forgery. It depends neither on the
+// location of the folder nor on the order of the given files.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_DATA_CHECKSUM_H_
 #define QUATRO_EXPERIMENTS_RUNNER_DATA_CHECKSUM_H_
@@ -23,8 +24,8 @@
 namespace quatro {
 
 struct DataSummary {
-  long num_files = 0;    // Different ones, the lists among them.
-  long num_missing = 0;  // Of the scans.
+  long num_files = 0;    // Distinct files, including lists.
+  long num_missing = 0;  // Missing scans.
   std::uint64_t num_bytes = 0;
   std::string checksum;  // 16 hexadecimal digits.
 };
@@ -32,8 +33,8 @@ struct DataSummary {
 std::uint64_t Fnv1a(std::string_view bytes,
                     std::uint64_t hash = 0xcbf29ce484222325u);
 
-// Names are relative to `folder`, or absolute. Nullopt with *error set if a
-// list can't be read.
+// Names are relative to `folder`, or absolute. Returns nullopt with *error set
+// if a list cannot be read.
 std::optional<DataSummary> SummarizeData(const std::string& folder,
                                          std::vector<std::string> scans,
                                          std::vector<std::string> lists,

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Takes fields out of an object, and remembers the first that was not there.
+// Reads the fields of an object and remembers the first missing or invalid one.
 class FieldReader {
  public:
   explicit FieldReader(const Json* json) : json_(*json) {}
@@ -85,7 +85,7 @@ std::string Quoted(const std::map<std::string, std::string>& flags,
   return found == flags.end() ? "not set" : "'" + found->second + "'";
 }
 
-// The first flag, in the order of names, that is not the same.
+// The first flag, in the order of names, that differs.
 std::optional<std::string> FlagDifference(
     const std::map<std::string, std::string>& was,
     const std::map<std::string, std::string>& is) {
@@ -129,7 +129,7 @@ std::string FormatManifest(const Manifest& manifest) {
         {"files", static_cast<std::uint64_t>(manifest.data.num_files)},
         {"missing", static_cast<std::uint64_t>(manifest.data.num_missing)},
         {"bytes", manifest.data.num_bytes}}}};
-  // What is not UTF-8 is replaced rather than thrown at.
+  // Replaces invalid UTF-8 instead of throwing.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -137,7 +137,7 @@ std::optional<Manifest> ParseManifest(const std::string& text,
                                       std::string* error) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) {
-    *error = "is no JSON object";
+    *error = "is not a JSON object";
     return std::nullopt;
   }
   Manifest manifest;
@@ -202,8 +202,8 @@ bool TakeManifest(const std::string& folder,
   if (!was) return false;
   std::string difference;
   if (DecidesTheSame(*was, manifest, &difference)) return true;
-  *error = folder + ": is of another run: " + difference +
-           "; take another --output, or the flags and data it began with";
+  *error = folder + ": belongs to another run: " + difference +
+           "; choose another --output, or use its original flags and data";
   return false;
 }
 

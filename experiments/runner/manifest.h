@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What made a run, as manifest.json in its folder, so that its figures can be
-// traced, and so that a run that was stopped goes on only as what it was.
+// The inputs of a run, stored as manifest.json in its folder, so that its
+// results are traceable and a run can be resumed only with the same inputs.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_MANIFEST_H_
 #define QUATRO_EXPERIMENTS_RUNNER_MANIFEST_H_
@@ -22,39 +22,41 @@ struct Manifest {
   std::string start_time;  // UtcNow()
   std::uint64_t seed = 0;
 
-  // Name without dashes -> value: those that decide results, and the others
-  // (threads, where output goes).
+  // Name without dashes -> value: flags that affect the results, and the others
+  // (threads, output location).
   std::map<std::string, std::string> flags;
   std::map<std::string, std::string> other_flags;
 
   DataSummary data;
 };
 
-// Of this program, this machine and now.
+// The manifest for this program, this machine and the current time.
 Manifest BeginManifest();
 
-// JSON, with a line's end.
+// JSON with a final line break.
 std::string FormatManifest(const Manifest& manifest);
 
-// Nullopt with *error set, which names the field, if one is missing or of
-// another type. Fields it does not know are passed over.
+// Returns nullopt with *error set, which names the field, if a field is missing
+// or has another type. Unknown fields are ignored.
 std::optional<Manifest> ParseManifest(const std::string& text,
                                       std::string* error);
 
-// *error names the file too.
+// *error also names the file.
 std::optional<Manifest> ReadManifest(const std::string& path,
                                      std::string* error);
 
-// Whether both give the same results: version, seed, flags and the data's
-// checksum are the same. If not, *difference is the first that is not: "flag
-// --preset was 'kitti', is 'paper'". Commit, compiler and machine are left out:
-// who changes the code under a run that was stopped must know that they do.
+// Returns whether both manifests give the same results: version, seed, flags
+// and the checksum of the data are equal. If not, *difference is the first
+// difference: "flag --preset was 'kitti', is 'paper'". Commit, compiler and
+// machine are not compared: whoever changes the code of an interrupted run is
+// responsible for it.
 bool DecidesTheSame(const Manifest& was,
                     const Manifest& is,
                     std::string* difference);
 
-// Leaves manifest.json in a folder that has none. Returns false and sets *error
-// if that can't be, or if the one that is there decides other results.
+// Writes manifest.json into a folder that has none. Returns false and sets
+// *error if it cannot be written, or if the existing one would give other
+// results.
 bool TakeManifest(const std::string& folder,
                   const Manifest& manifest,
                   std::string* error);

@@ -25,7 +25,7 @@ std::string ShardFolder(const std::string& output, const Shard& shard) {
          std::to_string(shard.count);
 }
 
-// Of all parts in the folder, sorted.
+// All parts in the folder, sorted.
 std::vector<std::string> ListShards(const std::string& output) {
   std::vector<std::string> shards;
   std::error_code status;
@@ -49,7 +49,7 @@ void AppendBits(const Attitude& attitude, std::string* bytes) {
   bytes->append(reinterpret_cast<const char*>(angles), sizeof(angles));
 }
 
-// With what the tasks are, and the scans they name.
+// Adds the checksum of the tasks, and the scans that they name.
 std::optional<Manifest> ManifestOf(const PairExperiment& experiment,
                                    std::string* error) {
   Manifest manifest = experiment.manifest;

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A whole experiment on pairs: tasks by methods, in one folder or shared out,
+// A whole experiment on pairs: tasks and methods, in one folder or split into
+// parts,
 //
 //   OUTPUT/                 the run's folder (experiments/runner/run_folder.h)
-//   OUTPUT/shard_2_of_5/    that of a part, for --merge to put together
+//   OUTPUT/shard_2_of_5/    the folder of a part, for --merge
 //
-// each with manifest.json, what makes its results. Where all pairs are done,
-// OUTPUT gets tables/, of experiments/tables/run_tables.h, and report.html, of
-// experiments/report/run_report.h, too.
+// each with a manifest.json. When all pairs are done, OUTPUT also gets tables/,
+// from experiments/tables/run_tables.h, and report.html, from
+// experiments/report/run_report.h.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
 #define QUATRO_EXPERIMENTS_RUNNER_PAIR_EXPERIMENT_H_
@@ -31,29 +32,29 @@ struct PairExperiment {
   std::string output;
   Shard shard;
 
-  // So many tasks, the first of the list, keep a 3D view.
+  // The number of tasks, from the start of the list, that keep a 3D view.
   std::size_t num_views = 0;
 
-  // Without the data; its tasks are put in as the flag "tasks".
+  // The manifest without the data; the tasks are added as the flag "tasks".
   Manifest manifest;
 };
 
-// Of name, turn, truth and INS of each.
+// Checksum of the name, added yaw, true pose and INS of each task.
 std::string ChecksumOf(const std::vector<PairTask>& tasks);
 
-// Runs, or goes on with, the experiment's part. Fails if the folder's manifest
-// is that of other results.
+// Runs or resumes the part of the experiment. Fails if the folder's manifest
+// belongs to other results.
 RunEnd RunPairExperiment(const PairExperiment& experiment,
                          const RunControl& control,
                          std::string* error);
 
-// Puts the parts that are in the output together, as if it had been run at
-// once. Returns false and sets *error, which names the part or the first pair
-// that is missing; what is there is kept.
+// Merges the parts in the output folder, as if the experiment had been run at
+// once. Returns false and sets *error, which names the part or the first
+// missing pair; existing data is kept.
 bool MergeShards(const PairExperiment& experiment, std::string* error);
 
-// From results.csv of the whole, tables/NAME.csv and .tex, and report.html if
-// there is a template for it. *summary is the table for a terminal.
+// Writes tables/NAME.csv and .tex from the complete results.csv, and
+// report.html if there is a template. *summary is the table for the terminal.
 bool WriteTables(const std::string& output,
                  const TableOptions& options,
                  const std::optional<std::string>& report_template,

@@ -27,7 +27,7 @@ std::string WhyNot(const std::string& path) {
   return path + ": " + std::strerror(errno);
 }
 
-// All of the bytes at an offset, or false with errno set.
+// Writes all bytes at an offset, or returns false with errno set.
 bool WriteAt(int file, std::string_view bytes, std::uint64_t offset) {
   while (!bytes.empty()) {
     const ssize_t written =
@@ -40,8 +40,7 @@ bool WriteAt(int file, std::string_view bytes, std::uint64_t offset) {
   return true;
 }
 
-// Whether there is nothing in the folder but what a run leaves: its lock at
-// least, or parts of it.
+// Returns whether the folder contains only files of a run: its lock, or parts.
 bool MayBeARun(const std::string& folder) {
   std::error_code status;
   if (fs::exists(fs::path(folder) / "run.lock", status)) return true;
@@ -54,7 +53,7 @@ bool MayBeARun(const std::string& folder) {
 
 }  // namespace
 
-// Names of pairs may be no names of files.
+// Names of pairs may not be valid file names.
 std::string ViewPath(const std::string& folder, const std::string& pair) {
   char name[32];
   std::snprintf(name,
@@ -114,7 +113,7 @@ std::unique_ptr<RunFolder> RunFolder::Open(
 
 RunFolder::~RunFolder() {
   if (file_ >= 0) close(file_);
-  if (lock_ >= 0) close(lock_);  // Which lets go of it.
+  if (lock_ >= 0) close(lock_);  // Releases the lock.
 }
 
 bool RunFolder::ReadRows(const std::vector<std::string>& methods,
@@ -132,11 +131,11 @@ bool RunFolder::ReadRows(const std::vector<std::string>& methods,
     return true;
   }
   if (!text->starts_with(header)) {
-    *error = path + ": line 1 is not the line of names of this version";
+    *error = path + ": line 1 is not the header line of this version";
     return false;
   }
 
-  // What a kill left half done is at the end.
+  // An incomplete pair after a kill is at the end.
   end_ = header.size();
   std::uint64_t at = end_;
   int line_number = 2;
@@ -148,7 +147,7 @@ bool RunFolder::ReadRows(const std::vector<std::string>& methods,
     const auto result = ParseResultCsv(text->substr(at, line_end - at), error);
     if (!result || result->method != methods[next_method] ||
         (next_method > 0 && result->pair != pair)) {
-      if (result) *error = "is not of the methods or pairs of this run";
+      if (result) *error = "does not match the methods or pairs of this run";
       *error = path + ": line " + std::to_string(line_number) + ": " + *error;
       return false;
     }
@@ -171,7 +170,8 @@ bool RunFolder::Append(const std::vector<PairResult>& results,
                        const std::string& note,
                        const std::string& view,
                        std::string* error) {
-  // Before the lines: a pair that is done has its view, whenever a kill comes.
+  // The view is written before the lines, so that a completed pair always has
+  // its view, even after a kill.
   if (!view.empty()) {
     std::error_code status;
     fs::create_directories(path_ + "/views", status);
@@ -201,7 +201,7 @@ bool RunFolder::Append(const std::vector<PairResult>& results,
     text += FormatResultCsv(result) + "\n";
   if (!WriteAt(file_, text, end_) || fdatasync(file_) != 0) {
     *error = WhyNot(path_ + "/rows.csv");
-    // What is half written would be taken off by the next start as well.
+    // The next start would remove partly written lines as well.
     [[maybe_unused]] const int ignored =
         ftruncate(file_, static_cast<off_t>(end_));
     return false;

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The folder of a long run, which may be killed at any moment and gone on with:
+// The folder of a long run, which may be killed at any moment and resumed:
 //
-//   manifest.json   what makes the results (experiments/runner/manifest.h)
-//   rows.csv        the pairs that are done, as they were finished, each with
-//                   a line a method; what is done is never written again
-//   results.csv     the same in the order of the tasks, once all are done
-//   shard_1_of_2/   folders of parts, if it was shared out
-//   views/          3D views of pairs for the report, a file each
-//   notes.txt       what was wrong with scans that can't be used
-//   run.lock        held by the process that works here
+//   manifest.json   the inputs of the run (experiments/runner/manifest.h)
+//   rows.csv        the completed pairs in order of completion, with a line
+//                   per method; completed pairs are never written again
+//   results.csv     the same lines in the order of the tasks, once all are done
+//   shard_1_of_2/   folders of parts, if the run was split
+//   views/          3D views of pairs for the report, one file each
+//   notes.txt       reasons why scans could not be used
+//   run.lock        locked by the process that uses the folder
 //
-// A pair is there with all of its lines or, after a kill, taken off again. Work
-// and memory for it do not grow with the pairs that are done.
+// A pair has either all of its lines or, after a kill, none. The time and
+// memory to add a pair do not grow with the number of completed pairs.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_RUN_FOLDER_H_
 #define QUATRO_EXPERIMENTS_RUNNER_RUN_FOLDER_H_
@@ -27,15 +27,15 @@
 
 namespace quatro {
 
-// Where the folder has the view of a pair, if it has one.
+// The path of the view of a pair, whether or not it exists.
 std::string ViewPath(const std::string& folder, const std::string& pair);
 
 class RunFolder {
  public:
-  // Creates the folder or goes on with it. Returns a nullptr and sets *error if
-  // another process works in it, if it holds something else, if it can't be
-  // written, or if rows.csv is not what this class writes. `methods`: of each
-  // pair, in this order.
+  // Creates or resumes the folder. Returns nullptr and sets *error if another
+  // process uses it, if it contains other files, if it cannot be written, or if
+  // rows.csv was not written by this class. `methods` are those of each pair,
+  // in this order.
   static std::unique_ptr<RunFolder> Open(
       const std::string& path,
       const std::vector<std::string>& methods,
@@ -49,16 +49,16 @@ class RunFolder {
   bool Has(const std::string& pair) const { return rows_.contains(pair); }
   std::size_t size() const { return rows_.size(); }
 
-  // The lines of one pair, and its note and view unless they are empty. They
-  // are on the disk when this returns. Returns false and sets *error if they
-  // can't be written; what was there before stays whole.
+  // Writes the lines of one pair, and its note and view unless they are empty.
+  // They are on disk when this returns. Returns false and sets *error if they
+  // cannot be written; previous data stays intact.
   bool Append(const std::vector<PairResult>& results,
               const std::string& note,
               const std::string& view,
               std::string* error);
 
-  // Writes results.csv; `pairs` names all of them in order. Returns false and
-  // sets *error if one is not done or the file can't be written.
+  // Writes results.csv; `pairs` names all pairs in order. Returns false and
+  // sets *error if one is not done or the file cannot be written.
   bool Finish(const std::vector<std::string>& pairs, std::string* error) const;
 
  private:
@@ -73,8 +73,8 @@ class RunFolder {
   std::string path_;
   int lock_ = -1;
   int file_ = -1;
-  std::uint64_t end_ = 0;  // Of what is whole in rows.csv [bytes].
-  std::unordered_map<std::string, Span> rows_;  // Of each pair.
+  std::uint64_t end_ = 0;  // Of the complete lines in rows.csv [bytes].
+  std::unordered_map<std::string, Span> rows_;  // Per pair.
 };
 
 }  // namespace quatro

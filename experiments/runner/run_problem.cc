@@ -12,7 +12,7 @@ bool CanRunProblems(const RunMethods& methods, std::string* error) {
   if (!methods.IsValid(error)) return false;
   for (const std::string& name : methods.names) {
     if (NeedsIns(name)) {
-      *error = "method " + name + " needs an INS, matched points have none";
+      *error = "method " + name + " needs an INS, but matched points have none";
       return false;
     }
     if (!FindMatchSolver(name, methods.own, error)) return false;

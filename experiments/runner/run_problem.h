@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Matched points with a known answer, drawn once, by each of several methods:
-// what experiments/runner/run_task.h does for scans. There is no front end and
-// no geometry, so that a verdict has the matches alone to go by.
+// Runs several methods on matched points with a known pose, generated once; the
+// equivalent of experiments/runner/run_task.h for scans. There are no front end
+// and no geometry, so a verdict uses only the matches.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_RUN_PROBLEM_H_
 #define QUATRO_EXPERIMENTS_RUNNER_RUN_PROBLEM_H_
@@ -14,12 +14,12 @@
 
 namespace quatro {
 
-// Returns false and says in *error which method does not work on matched points
-// alone, or needs an INS.
+// Returns false and names in *error the method that does not work on matched
+// points or needs an INS.
 bool CanRunProblems(const RunMethods& methods, std::string* error);
 
-// `task` makes a problem and `methods` can run it. The noise bound is that of
-// the options, whatever the problem was drawn with.
+// `task` makes a problem and `methods` can solve it. The noise bound is that of
+// the options, regardless of the noise of the problem.
 TaskOutcome RunProblem(const PairTask& task, const RunMethods& methods);
 
 }  // namespace quatro

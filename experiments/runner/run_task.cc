@@ -80,13 +80,13 @@ void FillResult(const RegistrationSummary& summary,
 
 bool RunMethods::IsValid(std::string* error) const {
   if (names.empty()) {
-    *error = "no method is named";
+    *error = "there is no method";
     return false;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!FindPairSolver(names[i], own, error)) return false;
     if (std::count(names.begin(), names.end(), names[i]) > 1) {
-      *error = "method " + names[i] + " comes twice";
+      *error = "method " + names[i] + " is listed twice";
       return false;
     }
   }
@@ -119,7 +119,7 @@ TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
   }
 
   TaskOutcome outcome;
-  std::vector<MethodAnswer> answers;  // Kept for the view alone.
+  std::vector<MethodAnswer> answers;  // Kept only for the view.
   for (const std::string& name : methods.names) {
     PairResult& result = outcome.results.emplace_back(blank);
     result.method = name;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One pair of scans, read once, described and matched once, by each of several
-// methods.
+// Runs several methods on one pair of scans, which is read, described and
+// matched once.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
 #define QUATRO_EXPERIMENTS_RUNNER_RUN_TASK_H_
@@ -20,51 +20,51 @@
 namespace quatro {
 
 struct RunMethods {
-  // Of experiments/programs/methods.h, but no odometry, or of `own`.
+  // Names of experiments/programs/methods.h except odometries, or of `own`.
   std::vector<std::string> names;
   std::vector<OwnMethod> own;
 
-  // For all of them; the solver is replaced.
+  // Options for all methods; the solver is replaced.
   RegistrationOptions options;
 
-  // Take the options from each pair of clouds (robust/registration/presets.h),
-  // but for threads and seed, which stay.
+  // Computes the options from each pair of clouds
+  // (robust/registration/presets.h), except for threads and seed.
   bool use_auto_options = false;
 
-  // Of what tasks keep for the report, but for the seed, which is that above.
+  // Options of the views for the report; the seed above is used.
   ViewOptions view = {};
 
-  // How a method that needs an INS uses the pair's. A pair without one is
-  // insufficient for it.
+  // How a method that needs an INS uses the pair's INS. A pair without INS is
+  // insufficient for such a method.
   InsMode ins_mode = InsMode::kFused;
 
-  // Returns false and says why in *error for a name that is not known or comes
-  // twice, or an option out of range.
+  // Returns false and says why in *error if a name is unknown or listed twice,
+  // or an option is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// What is known of the pair before any method.
+// The values that do not depend on a method.
 PairResult BlankResult(const PairTask& task);
 
-// What the method says of the pair, and its error if there is a truth.
+// Sets the result of the method and, if the true pose is known, its error.
 void FillResult(const RegistrationSummary& summary,
                 const std::optional<Rigid3>& true_target_from_source,
                 PairResult* result);
 
 struct TaskOutcome {
-  // Of each method, in the order of the names.
+  // One result per method, in the order of the names.
   std::vector<PairResult> results;
 
-  // Why, if a scan can't be read or used: then all are unreadable. Empty
-  // otherwise.
+  // The reason if a scan cannot be read or used, in which case all results are
+  // unreadable. Empty otherwise.
   std::string note;
 
-  // JSON of experiments/report/pair_view.h, of all methods; empty unless the
-  // task keeps it and the scans could be used.
+  // JSON of experiments/report/pair_view.h with all methods; empty unless the
+  // task keeps a view and the scans could be used.
   std::string view;
 };
 
-// Of scans; of matched points see experiments/runner/run_problem.h.
+// For scans; for matched points see experiments/runner/run_problem.h.
 TaskOutcome RunTask(const PairTask& task, const RunMethods& methods);
 
 }  // namespace quatro

@@ -50,7 +50,7 @@ RunEnd RunTasks(const std::vector<PairTask>& tasks,
   std::unordered_set<std::string> seen;
   for (const PairTask& task : tasks) {
     if (!seen.insert(task.name).second) {
-      *error = "pair " + task.name + " comes twice";
+      *error = "pair " + task.name + " is listed twice";
       return RunEnd::kFailed;
     }
     names.push_back(task.name);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A list of tasks by a list of methods, into a folder that keeps what is done
-// (experiments/runner/run_folder.h). What ends up in results.csv does not
-// depend on threads, on interruptions or on how the tasks are shared out, but
-// for its times.
+// Runs a list of tasks with a list of methods and stores completed pairs in a
+// folder (experiments/runner/run_folder.h). Except for times, results.csv does
+// not depend on threads, interruptions or the split into parts.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_RUNNER_H_
 #define QUATRO_EXPERIMENTS_RUNNER_RUNNER_H_
@@ -18,7 +17,8 @@
 
 namespace quatro {
 
-// Part k of n, k from 1: tasks k - 1, k - 1 + n, k - 1 + 2 n, ... 1/1: all.
+// Part k of n, with k from 1: tasks k - 1, k - 1 + n, k - 1 + 2 n, ... 1/1 is
+// the whole.
 struct Shard {
   int index = 1;
   int count = 1;
@@ -26,31 +26,31 @@ struct Shard {
   bool IsWhole() const { return count == 1; }
 };
 
-// "k/n". Nullopt with *error set unless 1 <= k <= n.
+// Parses "k/n". Returns nullopt with *error set unless 1 <= k <= n.
 std::optional<Shard> ParseShard(const std::string& text, std::string* error);
 
 std::vector<PairTask> TakeShard(const std::vector<PairTask>& tasks,
                                 const Shard& shard);
 
 enum class RunEnd {
-  kDone,     // results.csv is there.
-  kStopped,  // As asked; the same call goes on from here.
-  kFailed,   // What is done is kept; *error says why.
+  kDone,     // results.csv is complete.
+  kStopped,  // On request; the same call resumes.
+  kFailed,   // Completed pairs are kept; *error says why.
 };
 
 struct RunControl {
-  // As many pairs at a time; each takes options.num_threads for itself.
+  // The number of pairs at a time; each uses options.num_threads.
   int num_workers = 1;
 
-  // Asked before each pair.
+  // Called before each pair.
   std::function<bool()> should_stop;
 
-  // After each pair, with those that were there already counted as done; not
-  // from two threads at once.
+  // Called after each pair, where pairs completed earlier count as done; never
+  // called from two threads at once.
   std::function<void(int num_done, int num_tasks)> progress;
 };
 
-// Runs what the folder lacks. Names of tasks must differ.
+// Runs the tasks that the folder lacks. Names of tasks must differ.
 RunEnd RunTasks(const std::vector<PairTask>& tasks,
                 const RunMethods& methods,
                 const RunControl& control,

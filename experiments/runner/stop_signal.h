@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Ctrl-C (SIGINT) and SIGTERM as a wish to stop after the pair in hand; the
-// second time they end the program at once.
+// Treats Ctrl-C (SIGINT) and SIGTERM as a request to stop after the current
+// pair; a second signal ends the program at once.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_STOP_SIGNAL_H_
 #define QUATRO_EXPERIMENTS_RUNNER_STOP_SIGNAL_H_
 
 namespace quatro {
 
-// For the rest of the program; of programs, not of libraries.
+// Applies until the program ends; for use in programs, not libraries.
 void ListenForStop();
 
 bool WasAskedToStop();

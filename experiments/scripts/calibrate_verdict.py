@@ -1,25 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Fits the verdict's probability of success, and shows how far it can be trusted.
+"""Fits the verdict's probability that a pose is correct, and shows how reliable it is.
 
     experiments/scripts/with_python.sh numpy,matplotlib experiments/scripts/calibrate_verdict.py \\
         [--picture=verdict.png] RESULTS.csv ...
 
-The results are run_pairs.py's, of pairs with and without common ground. A pair
-counts as right if it is within 2 m and 10 deg. The model is
+The results come from run_pairs.py, for pairs with and without overlap. A pose is
+correct if it is within 2 m and 10 deg. The model is
 
     P = 1 / (1 + exp(-(w_0 + sum_j w_j x_j))),   w_j >= 0,
 
-of the features x_j in the results, fitted to the pairs of one half by least
-negative log-likelihood with a ridge on w_j (1e-3 per pair). The halves are
-drawn by a hash of the scans' names, so that they are the same in every run; on
-the other half the table, the receiver's curve and the reliability diagram are
-made. The model of matches alone is fitted without places that have a twin, which
-matches cannot tell. Weights to go into robust/verdict/success_model.cc are printed, by the half that
-was fitted: what is reported is what ships.
+with the features x_j in the results. It is fitted to one half of the pairs by
+minimizing the negative log-likelihood with a ridge on w_j (1e-3 per pair). A hash of
+the scans' names selects the halves, so that they are the same in every run. The table,
+the ROC curve and the reliability diagram use the other half. The model of matches alone
+is fitted without places that have a twin, which matches cannot distinguish. The weights
+for robust/verdict/success_model.cc are printed for the fitted half: the reported model
+is the shipped one.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import collections
 import hashlib
@@ -62,7 +62,7 @@ def fit(x, y, ridge=1e-3, num_steps=200):
     for _ in range(num_steps):
         p = 1.0 / (1.0 + np.exp(-x @ w))
         gradient = x.T @ (p - y) + penalty * w
-        # Held at 0 only while it would go below.
+        # Fixed at 0 only while it would become negative.
         free = (w > 0.0) | (gradient < 0.0)
         free[0] = True
         hessian = (x.T * (p * (1.0 - p))) @ x + np.diag(penalty + 1e-9)
@@ -100,8 +100,8 @@ def report(title, y, p, threshold):
     low, high = wilson(mistaken, len(wrong))
     auc = np.mean([(right > q).mean() + 0.5 * (right == q).mean() for q in wrong]) \
         if len(right) and len(wrong) else float("nan")
-    print(f"{title}: registered {accepted} of {len(right)} right "
-          f"({100 * accepted / max(1, len(right)):.1f} %), {mistaken} of {len(wrong)} wrong "
+    print(f"{title}: registered {accepted} of {len(right)} correct poses "
+          f"({100 * accepted / max(1, len(right)):.1f} %), {mistaken} of {len(wrong)} incorrect poses "
           f"({100 * mistaken / max(1, len(wrong)):.2f} %, 95 % interval {100 * low:.2f}-"
           f"{100 * high:.2f} %), area under the curve {auc:.4f}")
 
@@ -128,13 +128,13 @@ def draw(path, models):
     curve.axvline(0.005, color="0.7", linestyle=":")
     curve.axhline(0.92, color="0.7", linestyle=":")
     curve.set_xscale("log")
-    curve.set_xlabel("share of the wrong poses that are registered")
-    curve.set_ylabel("share of the right poses that are registered")
-    curve.set_title("the half that was not fitted")
+    curve.set_xlabel("share of incorrect poses that are registered")
+    curve.set_ylabel("share of correct poses that are registered")
+    curve.set_title("held-out half")
     curve.legend(loc="lower right")
     diagram.plot([0, 1], [0, 1], color="0.7", linestyle=":")
-    diagram.set_xlabel("probability of success as told")
-    diagram.set_ylabel("share that is right, with 95 % intervals")
+    diagram.set_xlabel("predicted probability of a correct pose")
+    diagram.set_ylabel("share of correct poses, with 95 % intervals")
     diagram.set_title("reliability")
     save_picture(figure, path, dpi=120)
 

@@ -1,21 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Says how close simulated scans are to real ones, as a registration sees them.
+"""Measures how similar simulated scans are to real ones for registration.
 
     compare_kitti.py --real=DATA/pairs.csv --simulated=05 [--simulated=street/pairs.csv]
 
-Runs quatro_register on pairs with a known pose, and prints by distance the
-medians of how many voxels of 0.3 m a scan has, how many mutual matches there
-are, and the share of these that the true pose brings within 0.6 m.
+Runs quatro_register on pairs with a known pose, and prints by distance the medians
+of the number of 0.3 m voxels of a scan, the number of mutual matches, and the share
+of matches that are within 0.6 m under the true pose.
 
-Then the same of each simulated list, and of all of them together, as shares of the real ones
-together, and how many of these are within a factor of 1.5.
+Then prints the same for each simulated list, and for all of them together, relative
+to all real lists together, and how many of these ratios are within a factor of 1.5.
 
-A list is a pairs.csv as run_pairs.py reads it, or a folder in KITTI's layout, of
-which pairs of frames are drawn: beside real ones, within 0.4 m of their distances
-and 20 deg of their turns where there are such. Of a real list, scans of less than --min_points
-are left out: they have been thinned. Exit code: 0; 2 if a flag or a file is wrong.
+A list is a pairs.csv in the format of run_pairs.py, or a folder in KITTI's layout.
+From a folder, pairs of frames are drawn that match the distances (within 0.4 m) and
+yaws (within 20 deg) of the real pairs, if there are such pairs. Scans of real lists
+with fewer than --min_points points are left out, because they have been thinned.
+Exit code: 0; 2 if a flag or a file is invalid.
 """
 import collections
 import csv
@@ -33,9 +34,9 @@ from run_pairs import DEFAULT_PROGRAM, check_program, read_pairs
 from script_support import BadInput, Parser, reason, run_script, split_flags
 
 BINS = (0.0, 2.5, 7.5, 12.5, 17.5, 25.0, 40.0)  # [m]
-MAX_ERROR = 0.6  # Of a true match [m].
-LIKE_DISTANCE = 0.4  # What a pair may be off from the real one it stands beside [m],
-LIKE_YAW = math.radians(20.0)  # and the turn between its scans.
+MAX_ERROR = 0.6  # Of an inlier [m].
+LIKE_DISTANCE = 0.4  # Tolerance between a simulated and a real pair, of the distance [m]
+LIKE_YAW = math.radians(20.0)  # and of the yaw between the scans.
 CLOSE = 1.5  # A ratio within 1/1.5 .. 1.5 is close.
 
 Pair = collections.namedtuple("Pair", "source target pose")  # pose: (R, t)
@@ -52,7 +53,7 @@ def inverse(pose):
 
 
 def read_matrices(path, prefix=""):
-    """3x4 matrices of the lines that begin with `prefix`, made 4x4."""
+    """3x4 matrices of the lines that start with `prefix`, extended to 4x4."""
     try:
         lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
         rows = [[float(x) for x in line[len(prefix):].split()] for line in lines
@@ -60,7 +61,7 @@ def read_matrices(path, prefix=""):
     except (OSError, UnicodeDecodeError, ValueError) as error:
         raise BadInput(f"{path}: {reason(error)}") from None
     if not rows or any(len(row) != 12 for row in rows):
-        raise BadInput(f"{path}: must have 12 numbers a line")
+        raise BadInput(f"{path}: must have 12 numbers per line")
     return [[row[0:4], row[4:8], row[8:12], [0.0, 0.0, 0.0, 1.0]] for row in rows]
 
 
@@ -73,8 +74,8 @@ def turn_between(a, b):
 
 
 def pairs_of_sequence(folder, per_bin, seed, models=None):
-    """Of each bin, pairs as far apart and as turned as the models there in turn; without
-    models, any."""
+    """For each bin, pairs with the distances and yaws of the models in turn; without models,
+    any pairs."""
     tr = read_matrices(folder / "calib.txt", "Tr:")[0]
     world_from_sensor = [product(product(inverse(tr), pose), tr)
                          for pose in read_matrices(folder / "poses.txt")]
@@ -99,8 +100,8 @@ def pairs_of_sequence(folder, per_bin, seed, models=None):
 
 
 def draw_like(candidates, models, headings, num, draw):
-    """`num` of the candidates (i, j, distance), like each model (distance, yaw) in turn where
-    there are such."""
+    """`num` of the candidates (i, j, distance), similar to each model (distance, yaw) in turn if
+    there are such candidates."""
     candidates = draw.sample(candidates, len(candidates))
     if not models:
         return candidates[:num]
@@ -151,7 +152,7 @@ def read_list(path, per_bin, seed, min_points, exclude, models):
 
 
 def measure(pair, program, flags):
-    """(voxels of a scan, matches, share of them that is true)"""
+    """(voxels of a scan, matches, inlier share)"""
     with tempfile.TemporaryDirectory() as folder:
         matches = os.path.join(folder, "matches.csv")
         run = subprocess.run([program, f"--source={pair.source}", f"--target={pair.target}",
@@ -185,7 +186,7 @@ def summarize(pairs, name, program, flags):
 
 
 def format_table(columns):
-    """One line a distance; for each column: pairs, voxels, matches, true share."""
+    """One line per distance; for each column: pairs, voxels, matches, inlier share."""
     lines = ["".join([f"{'':11}"] + [f"{name[-34:]:>36}" for name, _ in columns]),
              "".join([f"{'distance m':11}"] +
                      [f"{'pairs':>6}{'voxels':>9}{'matches':>9}{'true %':>12}" for _ in columns])]
@@ -204,12 +205,12 @@ def format_table(columns):
 
 
 def medians(group):
-    """(voxels, matches, share of true matches)"""
+    """(voxels, matches, inlier share)"""
     return tuple(statistics.median(values) for values in zip(*group))
 
 
 def pool(by_bins):
-    """All that several lists have in each bin."""
+    """The union of several lists in each bin."""
     together = collections.defaultdict(list)
     for by_bin in by_bins:
         for i, group in by_bin.items():
@@ -218,8 +219,8 @@ def pool(by_bins):
 
 
 def ratios(real, simulated):
-    """Bin -> simulated / real of voxels, matches and true share, where both have pairs. No
-    number of what is real is 0, but for the share: its ratio is then nan."""
+    """Bin -> simulated / real of voxels, matches and inlier share, if both have pairs. Real
+    numbers are nonzero except for the share, whose ratio is then nan."""
     return {i: tuple(s / r if r else math.nan
                      for r, s in zip(medians(real[i]), medians(simulated[i])))
             for i in sorted(real) if real[i] and simulated.get(i)}
@@ -230,7 +231,7 @@ def is_close(ratio):
 
 
 def format_ratios(real, simulated):
-    """One line a distance for each simulated (name, by_bin)."""
+    """One line per distance for each simulated (name, by_bin)."""
     lines = []
     for name, by_bin in simulated:
         of_bins = ratios(real, by_bin)
@@ -250,7 +251,7 @@ def parse_args(args):
     parser.add_argument("--real", metavar="LIST", action="append", default=[])
     parser.add_argument("--simulated", metavar="LIST", action="append", default=[])
     parser.add_argument("--exclude", metavar="SET", action="append", default=[],
-                        help="of the real lists; may be repeated")
+                        help="leave out this set of the real lists; may be repeated")
     parser.add_argument("--pairs_per_bin", type=int, default=8)
     parser.add_argument("--min_points", type=int, default=90000)
     parser.add_argument("--seed", type=int, default=1)

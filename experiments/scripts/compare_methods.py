@@ -1,29 +1,28 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""One table of several methods on the same scan pairs.
+"""One table that compares several methods on the same scan pairs.
 
     compare_methods.py --pairs=pairs.csv --methods=quatro,teaser,fgr [--output=FOLDER]
         [--outside=NAME=results.csv] [-- FLAGS]
 
-Runs run_pairs.py's measurement with each --method of quatro_register and prints
-a row each, as Markdown: pairs registered, within the three limits, wrong but
-registered, median and mean error of those within 2 m and 10 deg, median time of
-front end and of the rest, and the largest memory of a run. The folder gets
-METHOD.csv, a line per pair, and METHOD.run, what made it. A run that was stopped
-goes on from what is there, if it was made by the same flags.
+Runs the measurement of run_pairs.py with each --method of quatro_register and prints
+one row per method, as Markdown: registered pairs, pairs within the three limits, false
+registrations, median and mean error of those within 2 m and 10 deg, median time of
+the front end and of the rest, and the largest memory of a run. The folder gets
+METHOD.csv, a line per pair, and METHOD.run, the parameters of the run. An interrupted
+run is resumed if the parameters are the same.
 
---outside=NAME=FILE adds a row NAME of what another program found. A line is
+--outside=NAME=FILE adds a row NAME with the results of another program. A line is
 
     source,target,m00,m01,m02,m03,m10,...,m23[,0,0,0,1]
 
-with both paths as the list of pairs has them and the rows of the 3x4 or 4x4 matrix
-that moves the source onto the target. A pair that the program does not answer is
-left out: each that is there counts as registered. Empty lines, those that start
-with # and a first one that starts with source,target are passed over, and so are
-pairs of sets that are excluded.
+with both paths as in the list of pairs and the rows of the 3x4 or 4x4 matrix that
+moves the source onto the target. A pair without an answer is left out of the file;
+every pair in it counts as registered. Empty lines, lines that start with #, a first
+line that starts with source,target, and pairs of excluded sets are ignored.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import csv
 import json
@@ -39,7 +38,7 @@ from script_support import (BadInput, Parser, check_writable, parse_number, read
                             run_script, split_flags, write_atomically)
 
 FRONT_END = ("voxels", "features", "matching")
-MAX_DEVIATION = 1e-3  # Of R^T R from the identity, by element.
+MAX_DEVIATION = 1e-3  # Of R^T R from the identity, per element.
 
 
 def summarize(method, results):
@@ -94,7 +93,7 @@ def parse_matrix(fields, where):
 
 
 def parse_outside(text):
-    """NAME and FILE of NAME=FILE."""
+    """Splits NAME=FILE."""
     name, _, path = text.partition("=")
     if not name or not path:
         raise BadInput(f"--outside={text}: must be NAME=FILE.csv")
@@ -118,9 +117,9 @@ def read_outside(path, known):
         where = f"{path}: line {number}"
         pair = tuple(fields[:2])
         if pair not in known:
-            raise BadInput(f"{where}: no pair {','.join(pair)} is in the list of pairs")
+            raise BadInput(f"{where}: pair {','.join(pair)} is not in the list of pairs")
         if pair in found:
-            raise BadInput(f"{where}: the pair {','.join(pair)} was there before")
+            raise BadInput(f"{where}: the pair {','.join(pair)} is listed twice")
         found[pair] = parse_matrix(fields[2:], where)
     if not found:
         raise BadInput(f"{path}: there are no pairs")
@@ -142,18 +141,18 @@ def run_path(path):
 
 
 def check_methods(methods, program):
-    """Their names become those of files."""
+    """Checks the names, which become file names."""
     run_pairs.check_program(program)
     try:
         listed = subprocess.run([program, "--list_methods"], stdin=subprocess.DEVNULL,
                                 capture_output=True, text=True, check=True).stdout
     except (OSError, UnicodeDecodeError, subprocess.CalledProcessError):
-        raise BadInput(f"{program}: does not tell its --list_methods; "
+        raise BadInput(f"{program}: did not list its methods (--list_methods); "
                        "is it quatro_register?") from None
     names = [line.split()[0] for line in listed.splitlines() if line.strip()]
     for method in methods:
         if method not in names:
-            raise BadInput(f"--methods: there is no {method!r}; there are {','.join(names)}")
+            raise BadInput(f"--methods: {method!r} is not one of {','.join(names)}")
 
 
 def read_results(path, run, pairs):
@@ -163,8 +162,8 @@ def read_results(path, run, pairs):
     except (OSError, ValueError):
         same = False
     if not same:
-        raise BadInput(f"{path}: was made by other flags or from other pairs; "
-                       "remove it or name another --output")
+        raise BadInput(f"{path}: was made with other flags or from other pairs; "
+                       "remove it or choose another --output")
     results = [row for _, row in read_rows(path, run_pairs.RESULT_COLUMNS)[0]]
     found = [(result["set"], result["source"], result["target"]) for result in results]
     try:
@@ -172,7 +171,7 @@ def read_results(path, run, pairs):
             raise ValueError
         summarize("", results)
     except (TypeError, ValueError):
-        raise BadInput(f"{path}: does not hold the results of the pairs; "
+        raise BadInput(f"{path}: does not contain the results of the pairs; "
                        "remove it to run them again") from None
     return results
 
@@ -182,10 +181,10 @@ def main(args):
                                    "[-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
     parser.add_argument("--methods", metavar="A,B", default="",
-                        help="of quatro_register --list_methods")
+                        help="methods of quatro_register, see its --list_methods")
     parser.add_argument("--outside", action="append", default=[], metavar="NAME=FILE.csv",
-                        help="a row of another program's results; may be repeated")
-    parser.add_argument("--output", metavar="FOLDER", help="for a file per method")
+                        help="add a row with the results of another program; may be repeated")
+    parser.add_argument("--output", metavar="FOLDER", help="folder for a file per method")
     parser.add_argument("--program", default=str(run_pairs.DEFAULT_PROGRAM), metavar="FILE",
                         help="quatro_register (default: that in build/bin)")
     parser.add_argument("--exclude", action="append", default=[], metavar="SET",
@@ -199,7 +198,7 @@ def main(args):
     methods = options.methods.split(",") if options.methods else []
     if methods:
         check_methods(methods, options.program)
-    # Before hours of runs, not after them.
+    # Read these before hours of runs.
     outside = [(name, read_outside(path, known))
                for name, path in map(parse_outside, options.outside)]
     if options.output:
@@ -214,7 +213,7 @@ def main(args):
             for ending in (".csv", ".csv.part", ".run"):
                 check_writable(os.path.join(options.output, method + ending), inputs)
     rows = [("method", "registered", *(f"{m:g} m {d:g} deg" for m, d in run_pairs.SUCCESS.values()),
-             "wrong", "median / mean [m]", "median / mean [deg]", "front end [ms]", "rest [ms]",
+             "false registrations", "median / mean [m]", "median / mean [deg]", "front end [ms]", "rest [ms]",
              "memory [MB]")]
     for method in methods:
         own = [*flags, f"--method={method}"]

@@ -8,17 +8,17 @@ of --protocol=tilt, as PDF and PNG.
         [--figures=success,bins,distance,yaw,tilt,timing,recall] [--limit=2/10]
 
     success   pairs within the limit [m/deg] by set, with Wilson's 95 % intervals
-    bins      the same over the bins of each set that has several
+    bins      the same by bin, for each set with several bins
     distance  errors of all answers by bin of distance ("8-10 m"): boxes from quartile to
               quartile, whiskers from the 5th to the 95th percentile
     yaw       median error of all answers over the added yaw (bins "yaw 90 deg"), quartiles shaded
-    tilt      how the relative roll-pitch and yaw of the pairs are spread
+    tilt      distributions of the relative tilt and yaw of the pairs
     timing    median time of each stage, with and without the front end
-    recall    share of pairs over the error that is allowed
+    recall    share of pairs over the allowed error
 
-Figures for which the run has no pairs are left out. Names of the files written go
-to standard output.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Figures for which the run has no pairs are left out. The names of the written files are
+printed on standard output.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import math
 import os
@@ -39,7 +39,7 @@ ERRORS = (("translation_error_m", "translation error [m]"),
           ("rotation_error_deg", "rotation error [deg]"))
 FRONT_END = ("voxels", "features", "matching")
 LINES = ("-", "--", "-.", ":")
-# An error below it is drawn as it: the axes are logarithmic.
+# Smaller errors are drawn at this value because the axes are logarithmic.
 FLOOR = 1e-4
 
 
@@ -70,13 +70,13 @@ def parse_result(row, where):
     for name in NUMBERS:
         result[name] = parse_optional(row[name], f"{where}, column {name}")
     if (row["rotation_error_deg"] == "") != (row["translation_error_m"] == ""):
-        raise BadInput(f"{where} has one error of two")
+        raise BadInput(f"{where} has only one of two errors")
     result["stages"] = parse_stages(row["stages_ms"], f"{where}, column stages_ms")
     return result
 
 
 def parse_tilt(row, where):
-    """What a result would know of the pair; no method was run."""
+    """A pair as a result without a method."""
     return {**dict.fromkeys(TEXT, ""), **dict.fromkeys(NUMBERS), "stages": {}, "set": row["set"],
             "pair": row["source"] + "-" + row["target"],
             "true_yaw_deg": parse_optional(row["yaw_deg"], f"{where}, column yaw_deg"),
@@ -99,12 +99,12 @@ def read_results(folder):
 
 
 def names_of(results, key):
-    """In the order in which they first come."""
+    """Names in order of first occurrence."""
     return list(dict.fromkeys(result[key] for result in results))
 
 
 def wilson(successes, n, z=1.959963984540054):
-    """metrics/intervals.h."""
+    """See metrics/intervals.h."""
     p, z2 = successes / n, z * z / n
     center = (p + z2 / 2) / (1 + z2)
     half = math.sqrt(z2 * (p * (1 - p) + z2 / 4)) / (1 + z2)
@@ -145,7 +145,7 @@ def style_of(methods, method):
 
 
 def make_panels(num_panels, num_entries, height, width=3.5, are_stacked=False):
-    """Panels beside or above each other, under a strip for the legend of all. [inches]"""
+    """Panels side by side or stacked, below a strip for the common legend. [inches]"""
     rows, columns = (num_panels, 1) if are_stacked else (1, num_panels)
     num_legend_columns = max(1, min(num_entries, int(width * columns / 1.25)))
     strip = 0.1 + 0.2 * math.ceil(num_entries / num_legend_columns)
@@ -223,7 +223,8 @@ def draw_bins(results):
                 rates.append(100 * rate)
                 lows.append(100 * (rate - low))
                 highs.append(100 * (high - rate))
-                # Side by side, or methods that tie would hide each other.
+                # Side by side, because otherwise methods that tie would hide
+                # each other.
                 places.append(b + 0.4 * ((m + 0.5) / len(methods) - 0.5))
             axes.errorbar(places, rates, (lows, highs), marker="o", markersize=3, elinewidth=0.8,
                           label=method, **style_of(methods, method))
@@ -309,7 +310,7 @@ def draw_tilt(results):
     figure, panels = plt.subplots(1, 2, figsize=(7.0, 2.6), layout="constrained", sharey=True)
     tilts = [r["true_tilt_deg"] for r in pairs.values()]
     yaws = [abs(r["true_yaw_deg"]) for r in pairs.values()]
-    # As many bins for both, so that the shares compare.
+    # The same number of bins for both, so that the shares are comparable.
     top = math.ceil(max(max(tilts), 0.5) * 2) / 2
     for axes, values, end, label in ((panels[0], tilts, top, "relative roll-pitch [deg]"),
                                      (panels[1], yaws, 180.0, "relative yaw [deg]")):
@@ -327,7 +328,7 @@ def draw_tilt(results):
 
 
 def order_stages(results):
-    """A stage comes before those that it comes before wherever it first comes."""
+    """Stages in an order that is consistent with each result."""
     stages = []
     for result in results:
         own = list(result["stages"])
@@ -371,13 +372,13 @@ def draw_recall(results):
     methods = names_of(results, "method")
     panels, finish = make_panels(2, len(methods), 2.6)
     for axes, (column, _), end, label in zip(panels, ERRORS, (3.0, 15.0),
-                                             ("translation error allowed [m]",
-                                              "rotation error allowed [deg]")):
+                                             ("allowed translation error [m]",
+                                              "allowed rotation error [deg]")):
         for method in methods:
             own = [r for r in results if r["method"] == method]
             errors = sorted(r[column] for r in own if r[column] is not None)
             shares = [100 * (i + 1) / len(own) for i in range(len(errors))]
-            # A step at each error, and on to the end.
+            # A step at each error, extended to the end.
             num = sum(e <= end for e in errors)
             x = [0.0, *errors[:num], end]
             y = [0.0, *shares[:num], shares[num - 1] if num else 0.0]
@@ -397,16 +398,16 @@ FIGURES = {"success": draw_success, "bins": draw_bins, "distance": draw_distance
 def main(args):
     parser = Parser(__doc__)
     parser.add_argument("run", metavar="RUN", help="folder with results.csv or tilts.csv")
-    parser.add_argument("--output", metavar="FOLDER", help="for the figures (default: RUN/figures)")
+    parser.add_argument("--output", metavar="FOLDER", help="folder for the figures (default: RUN/figures)")
     parser.add_argument("--figures", default=",".join(FIGURES), metavar="A,B",
-                        help="which ones (default: all)")
+                        help="figures to draw (default: all)")
     parser.add_argument("--limit", default="2/10", metavar="M/DEG",
-                        help="what success is within (default: 2/10)")
+                        help="error limits of a success (default: 2/10)")
     options = parser.parse_args(args)
     chosen = options.figures.split(",")
     for name in chosen:
         if name not in FIGURES:
-            raise BadInput(f"--figures: there is no {name!r}; there are {','.join(FIGURES)}")
+            raise BadInput(f"--figures: {name!r} is not one of {','.join(FIGURES)}")
     limit = parse_limit(options.limit)
     results = read_results(options.run)
     for result in results:
@@ -416,7 +417,7 @@ def main(args):
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
         raise BadInput(f"{folder}: {reason(error)}") from None
-    # Fonts that journals take.
+    # Fonts that journals accept.
     plt.rcParams.update({"pdf.fonttype": 42, "font.size": 9})
     for name in chosen:
         figure = FIGURES[name](results)

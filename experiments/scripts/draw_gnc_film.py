@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Draws how GNC comes to a yaw: the weights of all differences and the cost over
-all yaws, iteration by iteration, with the exact optimum marked.
+"""Draws how GNC converges to a yaw: the weights of all TIMs and the cost over all yaws,
+iteration by iteration, with the exact optimum marked.
 
     build/bin/quatro_experiment --protocol=film --outliers=0.7 --output=70.csv
     build/bin/quatro_experiment --protocol=film --outliers=0.9 --output=90.csv
     experiments/scripts/with_python.sh matplotlib experiments/scripts/draw_gnc_film.py 70.csv 90.csv film.png
 
-A row a film.
+Each film is one row.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import matplotlib
 
@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt
 
 from script_support import BadInput, check_picture, read_rows, run_script, save_picture
 
-NUM_CURVES = 5  # Of the iterations, evenly, the last among them.
+NUM_CURVES = 5  # Evenly spaced iterations, including the last.
 
 
 def read_film(path):
@@ -35,10 +35,10 @@ def read_film(path):
             film["mu"][iteration] = float(row["mu"])
             film[row["kind"]].setdefault(iteration, []).append(point)
         except (KeyError, TypeError, ValueError) as failure:
-            raise BadInput(f"{path}: line {line} is not of a film") from failure
+            raise BadInput(f"{path}: line {line} is not part of a film") from failure
     film.update(ends)
     if not all(film[kind] for kind in ("weight", "curve", "yaw")) or not all(ends.values()):
-        raise BadInput(f"{path}: is no film; see --protocol=film of quatro_experiment")
+        raise BadInput(f"{path}: is not a film; see --protocol=film of quatro_experiment")
     return film
 
 
@@ -51,7 +51,7 @@ def draw_weights(axes, film):
     axes.imshow(image, aspect="auto", cmap="viridis", vmin=0, vmax=1, interpolation="nearest",
                 extent=(-0.5, len(iterations) - 0.5, len(order) - 0.5, -0.5))
     axes.axhline(len(is_true) - 0.5, color="white", linewidth=1.5)
-    for text, middle in (("true", len(is_true) / 2), ("wrong", (len(is_true) + len(order)) / 2)):
+    for text, middle in (("inliers", len(is_true) / 2), ("outliers", (len(is_true) + len(order)) / 2)):
         axes.text(0.97, 1 - middle / len(order), text, transform=axes.transAxes, color="white",
                   ha="right", va="center", fontsize=9,
                   bbox={"facecolor": "black", "alpha": 0.6, "linewidth": 0, "pad": 2})
@@ -85,13 +85,13 @@ def draw_costs(axes, film):
     axes.set_xticks(range(-180, 181, 60))
     axes.set_xlabel("yaw [deg]")
     axes.set_ylabel("cost")
-    axes.set_title("surrogates, the yaw of each, and the cost they stand for")
+    axes.set_title("surrogates, their yaws, and the truncated cost")
     axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
 
 
 def main(arguments):
     if len(arguments) < 2:
-        raise BadInput("give FILM.csv, one or more, and PICTURE.png")
+        raise BadInput("give one or more FILM.csv, and PICTURE.png")
     check_picture(arguments[-1], arguments[:-1])
     films = [read_film(path) for path in arguments[:-1]]
     figure, rows = plt.subplots(len(films), 2, figsize=(12.5, 3.9 * len(films)), squeeze=False,

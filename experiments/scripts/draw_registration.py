@@ -5,7 +5,7 @@
 
     draw_registration.py DATA.json PICTURE.png
 
-DATA is what experiments/programs/picture.cc writes. quatro_register --picture calls this.
+DATA is written by experiments/programs/picture.cc; quatro_register --picture calls this script.
 """
 import json
 import sys
@@ -19,7 +19,7 @@ from matplotlib.collections import LineCollection
 
 SOURCE, TARGET = "#d9480f", "#1864ab"
 INLIER, OUTLIER = "#2b8a3e", "#e03131"
-MAX_DRAWN = 400  # Rejected matches; more would hide the rest.
+MAX_DRAWN = 400  # Outliers; more would hide the rest.
 
 
 def points(data, name):
@@ -38,7 +38,7 @@ def draw_matches(axes, source, target, color, label, alpha):
 
 
 def window(clouds):
-    """Lowest and highest x and y shown: all but a few points far out."""
+    """Limits of x and y that include all but a few distant points."""
     shown = np.concatenate([cloud[:, :2] for cloud in clouds])
     if len(shown) == 0:
         return -np.ones(2), np.ones(2)
@@ -94,7 +94,7 @@ def draw(data, picture):
 
 
 def main(arguments):
-    """What is wrong; None if nothing is."""
+    """An error message, or None."""
     if arguments == ["--check"]:
         return None
     if len(arguments) != 2:
@@ -106,12 +106,12 @@ def main(arguments):
     except OSError as error:
         return f"{error.filename or picture}: {error.strerror}"
     except (IndexError, KeyError, TypeError, ValueError):
-        return f"{data}: is not of quatro_register --picture"
+        return f"{data}: was not written by quatro_register --picture"
     return None
 
 
 if __name__ == "__main__":
-    # Alone where it is installed: without the helpers of the other scripts.
+    # This script is installed alone, without the helpers of the other scripts.
     problem = main(sys.argv[1:])
     if problem:
         print(f"draw_registration.py: {problem}", file=sys.stderr)

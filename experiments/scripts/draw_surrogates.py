@@ -6,7 +6,7 @@
     build/bin/quatro_experiment --protocol=surrogates --output=surrogates.csv
     experiments/scripts/with_python.sh matplotlib experiments/scripts/draw_surrogates.py surrogates.csv surrogates.png
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import matplotlib
 
@@ -24,7 +24,7 @@ def read_curves(path):
             float(row["mu"])
             curves.setdefault(row["mu"], []).append((float(row["residual"]), float(row["loss"])))
         except (TypeError, ValueError):
-            raise BadInput(f"{path}: line {line} is not of --protocol=surrogates") from None
+            raise BadInput(f"{path}: line {line} is not from --protocol=surrogates") from None
     if not curves:
         raise BadInput(f"{path}: there are no curves; see --protocol=surrogates of "
                        "quatro_experiment")

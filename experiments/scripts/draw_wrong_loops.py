@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Draws how often pose graphs come out right against the share of wrong loops.
+"""Draws how often pose graphs are correct over the share of outlier loops.
 
     build/bin/quatro_pose_graph --protocol=wrong_loops --output=a.csv
     build/bin/quatro_pose_graph --protocol=wrong_loops --sigma_m=0.1 --sigma_deg=4 --output=b.csv
     experiments/scripts/with_python.sh matplotlib experiments/scripts/draw_wrong_loops.py a.csv b.csv wrong_loops.png
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import matplotlib
 
@@ -26,12 +26,12 @@ STYLES = {
 TITLES = {"manhattan": "Manhattan, in the plane", "sphere": "Sphere, in space"}
 
 
-COLUMNS = ("world", "sigma_m", "sigma_deg", "loss", "wrong_share", "right", "runs",
+COLUMNS = ("world", "sigma_m", "sigma_deg", "loss", "wrong_share", "correct", "runs",
            "median_error_m")
 
 
 def read_curves(paths):
-    """(world, noise) -> loss -> (share, right, error) of each point."""
+    """(world, noise) -> loss -> (share, correct, error) of each point."""
     curves = {}
     for path in paths:
         rows, _ = read_rows(path, COLUMNS)
@@ -41,18 +41,18 @@ def read_curves(paths):
         for line, row in rows:
             panel = row["world"], row["sigma_m"], row["sigma_deg"]
             try:
-                point = (100 * float(row["wrong_share"]), 100 * int(row["right"]) / int(row["runs"]),
+                point = (100 * float(row["wrong_share"]), 100 * int(row["correct"]) / int(row["runs"]),
                          max(float(row["median_error_m"]), 1e-9))
                 STYLES[row["loss"]]
             except (KeyError, TypeError, ValueError, ZeroDivisionError):
-                raise BadInput(f"{path}: line {line} is not of --protocol=wrong_loops") from None
+                raise BadInput(f"{path}: line {line} is not from --protocol=wrong_loops") from None
             curves.setdefault(panel, {}).setdefault(row["loss"], []).append(point)
     return curves
 
 
 def main(arguments):
     if len(arguments) < 2:
-        raise BadInput("give TABLE.csv, one or more, and PICTURE.png")
+        raise BadInput("give one or more TABLE.csv, and PICTURE.png")
     *tables, picture = arguments
     check_picture(picture, tables)
     curves = read_curves(tables)
@@ -62,14 +62,14 @@ def main(arguments):
     for column, ((world, sigma_m, sigma_deg), by_loss) in enumerate(curves.items()):
         for loss, points in by_loss.items():
             label, color, marker, line = STYLES[loss]
-            x, right, error = zip(*points)
-            for axis, y in ((axes[0, column], right), (axes[1, column], error)):
+            x, correct, error = zip(*points)
+            for axis, y in ((axes[0, column], correct), (axes[1, column], error)):
                 axis.plot(x, y, label=label, color=color, marker=marker, linestyle=line, clip_on=False)
         axes[0, column].set_title(f"{TITLES.get(world, world)}\nnoise {sigma_m} m, {sigma_deg} deg")
         axes[0, column].set_ylim(0, 103)
         axes[1, column].set_yscale("log")
         axes[1, column].axhline(0.1, color="0.8", zorder=0)
-        axes[1, column].set_xlabel("wrong loops [% of the loops]")
+        axes[1, column].set_xlabel("outlier loops [% of the loops]")
     axes[0, 0].set_ylabel("runs within 0.1 m [%]")
     axes[1, 0].set_ylabel("largest error, median [m]")
     axes[0, 0].legend(loc="center right")

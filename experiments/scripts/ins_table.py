@@ -5,23 +5,23 @@
 
     ins_table.py --pairs=pairs.csv --ins=kitti_ins_rotation.csv [-- FLAGS OF quatro_register]
 
-The pairs are those of run_pairs.py, with known poses. What the INS says of them
-is in --ins, by source and target, or else in the list of pairs itself:
+The pairs are those of run_pairs.py, with known poses. The measurements of the INS are
+in --ins, by source and target, or in the list of pairs itself:
 
     source_rpy_deg,target_rpy_deg   "roll,pitch,yaw" of each cloud in one world, or
-    qx,qy,qz,qw                     the rotation from source to target (in --ins alone),
-    ins_std_deg                     optional: of each roll and pitch.
+    qx,qy,qz,qw                     the rotation from source to target (only in --ins),
+    ins_std_deg                     optional: standard deviation of roll and pitch.
 
-A rotation is given to quatro_register as the source's attitude, with zeros for
-the target's. Pairs that --ins does not have are left out.
+A rotation is passed to quatro_register as the source's attitude, with zeros for the
+target's. Pairs that are not in --ins are left out.
 
-One Markdown table: for each pair the INS' own error, of the whole rotation and
-of the tilt (the angle between the verticals, all that Quatro takes from it),
-then the error of the answer, --ins_mode none (plain), relative, leveled and
-fused, --polish off and on. [deg]; "-" where there is no answer.
+Prints one Markdown table. For each pair it has the error of the INS, of the whole
+rotation and of the tilt (the angle between the verticals, all that Quatro uses), then
+the error of the result for --ins_mode none (plain), relative, leveled and fused, with
+--polish off and on. [deg]; "-" if there is no answer.
 
 The table goes to standard output, progress to standard error.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import concurrent.futures
 import math
@@ -43,7 +43,7 @@ HEADER = ("pair", "INS", "INS tilt",
             for mode, polish in RUNS))
 RPY = ("source_rpy_deg", "target_rpy_deg")
 QUATERNION = ("qx", "qy", "qz", "qw")
-# What this script sets itself, and an axis of gravity that it doesn't know of.
+# Flags that this script sets, and a gravity axis that it does not support.
 OWN_FLAGS = ("ins_mode", "polish", "gravity", "json", *RPY)
 
 
@@ -71,7 +71,7 @@ def rpy_from_rotation(r):
 
 
 def tilt_between_deg(a, b):
-    """Angle between the directions in the source that a and b hold for the target's up."""
+    """Angle between the up directions of the target, as rotations a and b map them to the source."""
     u, v = a[2], b[2]
     cross = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
     return math.degrees(math.atan2(math.hypot(*cross), sum(x * y for x, y in zip(u, v))))
@@ -100,7 +100,7 @@ def read_ins(path, is_own_file):
     ways = [RPY, QUATERNION] if is_own_file else [RPY]
     if not any(set(way) <= set(names) for way in ways):
         missing = " nor ".join(",".join(way) for way in ways)
-        raise BadInput(f"{path}: there are no columns {missing}"
+        raise BadInput(f"{path}: has no columns {missing}"
                        + ("" if is_own_file else "; name a file that has them by --ins"))
     ins = {}
     for line, row in rows:
@@ -124,7 +124,7 @@ def ins_flags(mode, polish, attitudes):
 
 
 def tabulate(pairs, ins, folder, program, flags, num_jobs):
-    """A row of errors per pair, in the order of ERRORS; None where there is no answer."""
+    """A row of errors per pair, in the order of ERRORS; None if there is no answer."""
     rows = [[None] * len(ERRORS) for _ in pairs]
     tasks = []
     for row, pair in zip(rows, pairs):
@@ -180,8 +180,8 @@ def parse_args(args):
     parser = Parser(__doc__, usage="ins_table.py --pairs=FILE [options] "
                                    "[-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
-    parser.add_argument("--ins", metavar="FILE.csv", help="what the INS says (default: --pairs)")
-    parser.add_argument("--output", metavar="FILE.csv", help="file for the numbers as well")
+    parser.add_argument("--ins", metavar="FILE.csv", help="measurements of the INS (default: --pairs)")
+    parser.add_argument("--output", metavar="FILE.csv", help="also write the numbers to this file")
     parser.add_argument("--program", default=str(run_pairs.DEFAULT_PROGRAM), metavar="FILE",
                         help="quatro_register (default: that in build/bin)")
     parser.add_argument("--jobs", default="1", metavar="N", help="runs at a time (default: 1)")
@@ -191,7 +191,7 @@ def parse_args(args):
         raise BadInput(f"--jobs={options.jobs}: must be a whole number > 0")
     for flag in flags:
         if flag.lstrip("-").split("=")[0] in OWN_FLAGS:
-            raise BadInput(f"{flag}: is not for this table, which sets it or has no use for it")
+            raise BadInput(f"{flag}: cannot be used here; the script sets it or does not support it")
     return options, flags
 
 
@@ -206,13 +206,13 @@ def main(args):
     if options.output:
         check_writable(options.output, run_pairs.scans_of(pairs, options.pairs))
     if not pairs:
-        raise BadInput(f"{options.ins}: has none of the pairs in {options.pairs}")
+        raise BadInput(f"{options.ins}: contains none of the pairs in {options.pairs}")
     for pair in pairs:
         if pair.pose is None:
-            raise BadInput(f"{options.pairs}: {pair.source} has no pose, so no error can be told")
+            raise BadInput(f"{options.pairs}: {pair.source} has no pose, so its error is unknown")
     flag = next((flag for flag in flags if flag.lstrip("-").startswith("ins_std_deg")), None)
     if flag and any(std is not None for *_, std in ins.values()):
-        raise BadInput(f"{flag}: {options.ins or options.pairs} has a column of it")
+        raise BadInput(f"{flag}: {options.ins or options.pairs} has a column for it")
     run_pairs.check_program(options.program)
     rows = tabulate(pairs, ins, pathlib.Path(options.pairs).parent, options.program, flags,
                     int(options.jobs))

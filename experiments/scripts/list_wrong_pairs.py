@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Lists pairs of scans of different places, out of a list of pairs of one place.
+"""Lists pairs of scans of different places, from a list of pairs of the same place.
 
     list_wrong_pairs.py --pairs=pairs.csv --output=wrong.csv [--same=SET,SET ...]
 
-Scans that a pair joins, directly or through others, are of one place; so are all
-scans of the sets that --same names. Of any two places --each pairs are listed,
-evenly over their scans, without a pose: no registration of them is right. The
-list is for run_pairs.py and holds absolute paths.
+Scans that pairs connect, directly or through others, belong to the same place; so do
+all scans of the sets that --same names. For any two places, --each pairs are listed,
+spread evenly over their scans and without a pose: every registration of them is false.
+The list is input of run_pairs.py and contains absolute paths.
 
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import csv
 import io
@@ -22,7 +22,7 @@ from script_support import BadInput, Parser, check_writable, run_script, write_a
 
 
 def find_places(pairs, same):
-    """Lists of scans, those of one place each, in the order of the pairs."""
+    """Lists of scans, one list per place, in the order of the pairs."""
     place = {}
 
     def root(scan):
@@ -54,9 +54,9 @@ def main(args):
     parser.add_argument("--exclude", action="append", default=[], metavar="SET",
                         help="leave out this set; may be repeated")
     parser.add_argument("--same", action="append", default=[], metavar="SET,SET",
-                        help="sets that are of one place; may be repeated")
+                        help="sets of the same place; may be repeated")
     parser.add_argument("--each", type=int, default=3, metavar="N",
-                        help="pairs of any two places (default: 3)")
+                        help="pairs for any two places (default: 3)")
     options = parser.parse_args(args)
     if options.each < 1:
         raise BadInput(f"--each={options.each}: must be > 0")

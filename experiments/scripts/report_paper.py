@@ -5,11 +5,11 @@
 
     report_paper.py FOLDER > report.md
 
-Before the tables it holds the paper's order of methods against them: what the
-paper found, what this run did, and whether they agree; then, of the runs of Table I,
-what says why: how many matches agreed, and what Quatro misses that others do not.
-Runs that are missing are told as such.
-Exit code: 0; 2 if FOLDER has none of the runs, with one line that says so.
+Before the tables it compares the paper's findings with this run: the finding, the
+numbers of this run, and whether it holds. For the runs of Table I it also explains
+why: how many matches were consistent, and which pairs Quatro misses but others do not.
+Missing runs are reported as such.
+Exit code: 0; 2 if FOLDER contains none of the runs, with one line that says so.
 """
 import json
 import os
@@ -20,12 +20,12 @@ from script_support import BadInput, read_rows, reason, run_script
 RUNS = ("table_one", "table_one_paper", "table_two", "table_three", "yaw", "timing", "synthetic")
 TITLES = {
     "table_one": "Success of loop pairs, 9-12 m [%] (Table I)",
-    "table_one_paper": "The same with the paper's parameters, --preset=paper",
+    "table_one_paper": "Success with the paper's parameters, --preset=paper",
     "table_two": "Drift of odometry on 00 (Table II)",
     "table_three": "Errors by distance on 06 (Table III)",
-    "yaw": "Errors against an added yaw",
+    "yaw": "Errors over the added yaw",
     "timing": "Median times [ms]",
-    "synthetic": "Matched points with known answers",
+    "synthetic": "Matched points with known poses",
 }
 TABLES = {"table_one": "tables/table_one.csv", "table_one_paper": "tables/table_one.csv",
           "table_two": "table_two.csv",
@@ -34,7 +34,7 @@ TABLES = {"table_one": "tables/table_one.csv", "table_one_paper": "tables/table_
 FIGURES = {"table_one": ("success", "recall"), "table_one_paper": ("success", "recall"),
            "table_three": ("distance",), "yaw": ("yaw",),
            "timing": ("timing",), "synthetic": ("bins",)}
-# Figures without a table, under the folder of reproduce.sh.
+# Figures without a table, in the folder of reproduce.sh.
 MORE_FIGURES = {"Relative roll-pitch and yaw of loops up to 12 m": "tilt/figures/tilt.png",
                 "Surrogates of truncated least squares": "surrogates.png"}
 
@@ -52,7 +52,7 @@ def read_manifest(path):
         raise BadInput(f"{path}: {reason(error)}") from None
     for name in ("version", "commit", "start_time"):
         if not isinstance(manifest, dict) or name not in manifest:
-            raise BadInput(f"{path}: has no {name!r}; is it of an experiment?")
+            raise BadInput(f"{path}: has no {name!r}; is it from an experiment?")
     return manifest
 
 
@@ -88,7 +88,7 @@ def markdown(columns, rows):
 
 
 def finding(claim, figures, holds):
-    told = "no figures in this run" if holds is None else ("holds" if holds else "does not hold")
+    told = "no data in this run" if holds is None else ("holds" if holds else "does not hold")
     return f"| {claim} | {figures} | {told} |"
 
 
@@ -120,7 +120,7 @@ def ins_findings(columns, rows):
         plain = number(row_of(rows, "quatro"), column)
         with_ins = number(row_of(rows, "quatro_ins"), column)
         if plain is not None and with_ins is not None:
-            yield finding(f"{column}: Quatro with INS turns less wrong than without",
+            yield finding(f"{column}: Quatro with INS has smaller rotation errors than without",
                           f"{show(with_ins, 3)} and {show(plain, 3)}", with_ins < plain)
 
 
@@ -134,14 +134,14 @@ def drift_findings(rows):
 
 
 def is_success(row):
-    """Within 2 m and 10 deg."""
+    """The pairs within 2 m and 10 deg."""
     translation = number(row, "translation_error_m")
     rotation = number(row, "rotation_error_deg")
     return None not in (translation, rotation) and translation <= 2.0 and rotation <= 10.0
 
 
 def reasons(name, folder):
-    """Sentences on the run of Table I in `folder`, of its results.csv; none without."""
+    """Sentences about the run of Table I in `folder`, from its results.csv; none without it."""
     path = os.path.join(folder, "results.csv")
     if not os.path.exists(path):
         return
@@ -155,11 +155,11 @@ def reasons(name, folder):
     right = {method: {pair for pair, row in rows.items() if is_success(row)}
              for method, rows in by_method.items()}
     missed = set(ours) - right["quatro"]
-    yield (f"`{name}`: {consistent:g} matches of a pair are consistent, in the median. "
+    yield (f"`{name}`: the median pair has {consistent:g} consistent matches. "
            f"Quatro misses {len(missed)} of {len(ours)} pairs.")
     for method in ("teaser", "ransac10k", "fgr"):
         if method in right:
-            yield (f"`{name}`: {method} is right on {len(missed & right[method])} of the pairs that "
+            yield (f"`{name}`: {method} is correct on {len(missed & right[method])} of the pairs that "
                    f"Quatro misses, and misses {len(right['quatro'] - right[method])} that Quatro "
                    "has.")
 
@@ -181,11 +181,11 @@ def write_run(name, folder):
 
 def main(arguments):
     if len(arguments) != 1:
-        raise BadInput("give the folder of reproduce.sh, and it alone")
+        raise BadInput("give only the folder of reproduce.sh")
     root = arguments[0]
     present = [name for name in RUNS if os.path.exists(os.path.join(root, name, TABLES[name]))]
     if not present:
-        raise BadInput(f"{root}: holds none of the runs {', '.join(RUNS)}")
+        raise BadInput(f"{root}: contains none of the runs {', '.join(RUNS)}")
     findings = []
     for name, what in (("table_one", ""), ("table_one_paper", "paper's parameters, ")):
         if name in present:
@@ -196,14 +196,14 @@ def main(arguments):
     if "table_two" in present:
         findings += drift_findings(
             read_csv(os.path.join(root, "table_two", TABLES["table_two"]))[1])
-    print("# The paper's tables, run again\n\n| the paper | here | |\n|---|---|---|")
+    print("# The paper's tables, reproduced\n\n| the paper | here | |\n|---|---|---|")
     for line in findings:
         print(line)
     why = [line for name in ("table_one", "table_one_paper") if name in present
            for line in reasons(name, os.path.join(root, name))]
     if why:
-        print("\nWhy: the more matches are consistent, the more methods do everything and tie; a "
-              "pair that all of them miss has too few for any.\n")
+        print("\nWhy: the more matches are consistent, the more methods solve everything and tie. A "
+              "pair that all methods miss has too few consistent matches for any of them.\n")
         for line in why:
             print(f"- {line}")
     for name in RUNS:

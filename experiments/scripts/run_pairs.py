@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""Runs quatro_register over a list of scan pairs and measures how far off it is.
+"""Runs quatro_register over a list of scan pairs and measures the errors.
 
     run_pairs.py --pairs=pairs.csv --output=results.csv [-- FLAGS OF quatro_register]
 
@@ -14,10 +14,10 @@ and the errors of an estimate are the angle of R_true^T R, the difference of the
 two yaws, and |t - t_true|. Without them, or where a line leaves them empty, the
 scans share no place, and the right answer is not to register them.
 
-The summary goes to standard output, progress to standard error. A run that was
-stopped is gone on with by the same command: what is done is in the output's
-name with .part added.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+The summary is printed on standard output, progress on standard error. Run the same
+command again to resume an interrupted run: completed pairs are in a file with the
+output's name and .part.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import collections
 import concurrent.futures
@@ -42,7 +42,8 @@ from script_support import (BadInput, Parser, check_writable, parse_number, read
 POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
 COUNTS = ("source_voxels", "target_voxels", "matches", "consistent", "rotation_inliers",
           "translation_inliers", "inliers")
-# Within so many metres and degrees (the whole rotation), registered or not.
+# Limits in meters and degrees (of the whole rotation), whether or not it is
+# registered.
 SUCCESS = {"success_2m_10deg": (2.0, 10.0), "success_0.6m_5deg": (0.6, 5.0),
            "success_0.3m_1deg": (0.3, 1.0)}
 RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "yaw_error_deg",
@@ -61,7 +62,7 @@ def rotation_from_quaternion(x, y, z, w):
 
 
 def angle_between_deg(a, b):
-    """Angle of a^T b; by its skew part, so that small angles keep their digits."""
+    """Angle of a^T b; from its skew part, so that small angles keep their digits."""
     c = [[sum(a[k][i] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
     sine = math.hypot(c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1])
     return math.degrees(math.atan2(sine, c[0][0] + c[1][1] + c[2][2] - 1.0))
@@ -84,7 +85,7 @@ def read_pairs(path, excluded):
     given = [name for name in POSE if name in names]
     if given and len(given) < len(POSE):
         missing = ",".join(name for name in POSE if name not in names)
-        raise BadInput(f"{path}: of the pose there is no column {missing}")
+        raise BadInput(f"{path}: the pose has no column {missing}")
 
     folder = pathlib.Path(path).parent
     pairs = []
@@ -169,26 +170,26 @@ def measure(pair, report):
 
 
 def describe_run(pairs, exclude, program, flags):
-    """What must be the same for a run to be gone on with."""
+    """Properties that must be equal to resume a run."""
     list_hash = hashlib.sha256(pathlib.Path(pairs).read_bytes()).hexdigest()
     return [os.path.abspath(pairs), list_hash, exclude, os.path.abspath(program), flags]
 
 
 def open_locked(path):
-    """To append to; no other process has it, and another one is told so."""
+    """Opens and locks a file for appending; fails if another process uses it."""
     while True:
         file = open(path, "a+b", buffering=0)
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise BadInput(f"{path}: another process works here; wait for it or stop it") from None
+            raise BadInput(f"{path}: another process is using this file; wait for it or stop it") from None
         if os.fstat(file.fileno()).st_nlink > 0:
             return file
-        file.close()  # Removed meanwhile by the one that had it.
+        file.close()  # The previous owner removed it meanwhile.
 
 
 def parse_done(line):
-    """Index and result; None if it is no such line."""
+    """Index and result; None if the line is invalid."""
     try:
         index, result = json.loads(line)
         return (index, result) if result.keys() == set(RESULT_COLUMNS) else None
@@ -197,9 +198,9 @@ def parse_done(line):
 
 
 class Done:
-    """The results so far, on disk: a line each, after one that says of what run.
+    """The results so far, on disk: a line that describes the run, then a line per result.
 
-    The file is locked while it is open, and is left only if there is a result in it.
+    The file is locked while it is open, and is kept only if it contains a result.
     """
 
     def __init__(self, path, run):
@@ -217,9 +218,9 @@ class Done:
     def read(self, data):
         head, *lines = data.splitlines(keepends=True) or [b""]
         if data and head != self.head and (lines or not head.startswith(b'["/')):
-            raise BadInput(f"{self.path}: is what another run has done, with other flags or pairs; "
-                           "remove it to start anew")
-        # A line that a stop cut short is run again.
+            raise BadInput(f"{self.path}: belongs to another run, with other flags or pairs; "
+                           "remove it to start again")
+        # A truncated line is run again.
         if lines and not lines[-1].endswith(b"\n"):
             self.file.truncate(len(data) - len(lines.pop()))
         for number, line in enumerate(lines, 2):
@@ -289,15 +290,15 @@ def format_results(results):
 
 
 def format_summary(results):
-    """One line per set, and one for all."""
+    """One line per set, and one for all sets."""
     rows = [("set", "pairs", "registered", *(f"{m:g} m {d:g} deg" for m, d in SUCCESS.values()),
-             "wrong", "median ms")]
+             "false registrations", "median ms")]
     by_set = collections.defaultdict(list)
     for result in results:
         by_set[result["set"]].append(result)
     for name, group in [*by_set.items(), ("total", results)]:
         times = [result["total_ms"] for result in group if result["total_ms"] != ""]
-        # Where there is no pose to meet, there is no success to count.
+        # Without a true pose there is no success to count.
         successes = ["-" if all(result[key] == "" for result in group)
                      else str(sum(result[key] or 0 for result in group)) for key in SUCCESS]
         rows.append((name, str(len(group)),
@@ -308,16 +309,16 @@ def format_summary(results):
     return "".join(
         "  ".join([row[0].ljust(widths[0])] +
                   [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]) + "\n"
-        for row in rows) + "wrong: registered, but not within 2 m and 10 deg\n"
+        for row in rows) + "false registrations: registered, but not within 2 m and 10 deg\n"
 
 
 def check_program(path):
     if not os.access(path, os.X_OK) or os.path.isdir(path):
-        raise BadInput(f"{path}: is not a program; build it or name it by --program")
+        raise BadInput(f"{path}: is not a program; build it or set --program")
 
 
 def scans_of(pairs, path):
-    """Of a list of that path."""
+    """The paths of all scans of a list."""
     folder = pathlib.Path(path).parent
     return {folder / scan for pair in pairs for scan in (pair.source, pair.target)}
 

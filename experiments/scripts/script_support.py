@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""What the scripts here share: how they read flags and files, write, and end.
+"""Common parts of the scripts: reading flags and files, writing, and exiting.
 
-A script is a main(arguments), run by run_script; what is wrong with a flag or a file
-it raises as BadInput, whose text is the one line that the user sees.
+A script is a main(arguments), run by run_script. For an invalid flag or file it raises
+BadInput, whose text is the one line that the user sees.
 """
 import argparse
 import csv
@@ -28,13 +28,13 @@ class Parser(argparse.ArgumentParser):
 
 
 def split_flags(arguments):
-    """Those before "--" and those after it, which are of a program that is run."""
+    """Splits at "--"; the arguments after it are for the program that the script runs."""
     split = arguments.index("--") if "--" in arguments else len(arguments)
     return arguments[:split], arguments[split + 1:]
 
 
 def reason(error):
-    """Of an OSError or another one, without its path."""
+    """The text of an OSError or another error, without its path."""
     return getattr(error, "strerror", None) or str(error)
 
 
@@ -49,7 +49,7 @@ def parse_number(text, where):
 
 
 def read_rows(path, columns=()):
-    """(line, row) of each, and the names of the columns, of which `columns` must be there."""
+    """(line, row) for each row, and the names of the columns, which must include `columns`."""
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)
@@ -67,7 +67,7 @@ def read_rows(path, columns=()):
 
 
 def check_writable(path, inputs=()):
-    """Before the work that is to be written; never over what it is made of."""
+    """Checks an output before the work starts; it must not overwrite an input."""
     if os.path.isdir(path):
         raise BadInput(f"{path}: is a directory, must be a file to write")
     folder = os.path.dirname(path) or "."
@@ -76,7 +76,7 @@ def check_writable(path, inputs=()):
     if not os.access(folder, os.W_OK | os.X_OK):
         raise BadInput(f"{path}: may not write into folder {folder}")
     if os.path.realpath(path) in map(os.path.realpath, inputs):
-        raise BadInput(f"{path}: would be overwritten, but is read here; name another file")
+        raise BadInput(f"{path}: would be overwritten, but is an input; choose another file")
 
 
 def check_picture(path, inputs):
@@ -84,11 +84,11 @@ def check_picture(path, inputs):
     try:
         from matplotlib.backend_bases import FigureCanvasBase
     except ImportError:
-        raise BadInput(f"{path}: this Python has no Matplotlib for it; run by with_python.sh "
+        raise BadInput(f"{path}: this Python has no Matplotlib; run by with_python.sh "
                        "matplotlib") from None
     endings = FigureCanvasBase.get_supported_filetypes()
     if os.path.splitext(path)[1][1:].lower() not in endings:
-        raise BadInput(f"{path}: a picture's name ends with one of .{' .'.join(endings)}")
+        raise BadInput(f"{path}: a picture's name must end with one of .{' .'.join(endings)}")
 
 
 def save_picture(figure, path, **options):
@@ -98,7 +98,7 @@ def save_picture(figure, path, **options):
 
 
 def write_atomically(path, content):
-    """Text or bytes."""
+    """Writes text or bytes."""
     data = content.encode() if isinstance(content, str) else content
     try:
         descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path) or ".",
@@ -116,7 +116,7 @@ def write_atomically(path, content):
 
 
 def run_script(main):
-    """main(arguments), and what is wrong in one line."""
+    """Runs main(arguments) and prints errors in one line."""
     try:
         main(sys.argv[1:])
         sys.stdout.flush()
@@ -125,7 +125,7 @@ def run_script(main):
         problem, code = error, 2
     except OSError as error:
         problem, code = f"{error.filename or 'standard output'}: {reason(error)}", 2
-        # Python's own flush at the end would fail once more.
+        # Avoids a second failure in Python's own flush at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     except KeyboardInterrupt:
         problem, code = "interrupted", 130

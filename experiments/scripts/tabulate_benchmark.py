@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
-"""What quatro_benchmark measured as a Markdown table on standard output.
+"""Prints the results of quatro_benchmark as a Markdown table on standard output.
 
     quatro_benchmark --benchmark_out=run.json
     tabulate_benchmark.py run.json [--clock=cpu] [--picture=growth.png]
 
-A row for each stage and case (names are stage/who/case). Times are medians over
-repetitions; by --clock=cpu of all threads together, which says more of a machine that
-has other work to do. "of the limit" is our time over that of who `limit`, in the same
-run; a library's column has its time and, in brackets, that over ours; "of one
-thread" is the time of threads:2 over that of threads:1; memory is the peak, and
-over the bits of a graph. The picture, for which Matplotlib is needed
-(with_python.sh finds a Python that has it), shows times over N.
-Exit code: 0; 2 if a flag or a file is wrong, with one line that says which.
+There is a row for each stage and case (names are stage/who/case). Times are medians over
+repetitions. --clock=cpu sums over all threads, which is more meaningful on a busy
+machine. "of the limit" is our time divided by that of `limit` in the same run. The
+column of a library has its time and, in brackets, the ratio to ours. "of one thread"
+is the time of threads:2 divided by that of threads:1. Memory is the peak, and its
+ratio to the bits of a graph. The picture requires Matplotlib (with_python.sh finds a
+Python that has it) and shows times over N.
+Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import collections
 import json
@@ -26,19 +26,20 @@ from script_support import BadInput, Parser, check_picture, reason, run_script, 
 
 OURS, LIMIT = "quatro", "limit"
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
-# Not said of a stage's input or answer.
+# Counters that do not describe a stage's input or output.
 OWN_COLUMNS = ("peak_bytes", "bitset_bytes", "bytes_per_second")
 NOT_COUNTERS = {"name", "run_name", "run_type", "family_index", "per_family_instance_index",
                 "repetitions", "repetition_index", "threads", "iterations", "real_time",
                 "cpu_time", "time_unit", "aggregate_name", "aggregate_unit", "error_occurred",
                 "error_message"}
 
-# Of one benchmark: the time is None where it was not run, and `error` says why.
+# One benchmark. The time is None if it was not run, and `error` gives the
+# reason.
 Measured = collections.namedtuple("Measured", "ms error counters")
 
 
 def parse_name(name, where):
-    """(stage, who, case), without what Google Benchmark adds."""
+    """(stage, who, case), without the parts that Google Benchmark adds."""
     parts = [part for part in name.split("/")
              if part not in ("process_time", "real_time") and not re.match(r"(min_time|iterations|repeats):", part)]
     if len(parts) < 2 or not all(parts):
@@ -92,7 +93,7 @@ def read_run(path, clock):
 
 
 def number(value):
-    """Three digits, no more."""
+    """Formats with at most three digits."""
     if value == int(value) and abs(value) < 1e7:
         return str(int(value))
     if abs(value) >= 100.0:
@@ -153,7 +154,7 @@ def make_table(rows):
         lines.append([stage, case, time_cell(ours), time_cell(limit), ratio(ours, limit), *of_peers,
                       ratio(ours, one_thread(rows, stage, case)), memory_cell(counters),
                       count_cell(counters)])
-    # Without those that are empty all the way down.
+    # Drops columns that are empty in every row.
     kept = [k for k, _ in enumerate(header) if k < 3 or any(line[k] for line in lines)]
     return [[line[k] for k in kept] for line in [header, *lines]]
 
@@ -175,7 +176,7 @@ def describe(context):
 
 
 def curves_over_size(rows):
-    """{"stage, who, case without N": [(N, ms)]}, of two sizes or more."""
+    """{"stage, who, case without N": [(N, ms)]}, with at least two sizes."""
     curves = collections.defaultdict(list)
     for (stage, case), row in rows.items():
         parts = case.split("/")
@@ -208,10 +209,10 @@ def draw(rows, path):
 
 def main(args):
     parser = Parser(__doc__)
-    parser.add_argument("json", metavar="RUN.json", help="by quatro_benchmark --benchmark_out")
+    parser.add_argument("json", metavar="RUN.json", help="output of quatro_benchmark --benchmark_out")
     parser.add_argument("--picture", metavar="FILE.png", help="times over N")
     parser.add_argument("--clock", choices=("real", "cpu"), default="real",
-                        help="which time (default: real)")
+                        help="time to use (default: real)")
     options = parser.parse_args(args)
     if options.picture:
         check_picture(options.picture, [options.json])

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs a script with a Python that has the modules it needs: the first python3
-# on PATH may be a bare one. QUATRO_PYTHON is tried first.
+# Runs a script with a Python that has the modules it needs, because the first
+# python3 on PATH may lack them. QUATRO_PYTHON is tried first.
 #   experiments/scripts/with_python.sh MODULE[,MODULE] SCRIPT [ARGS...]
 # Exit code: the script's; 2 if no Python has the modules.
 set -euo pipefail

@@ -39,7 +39,7 @@ Vector2d Building::Crossing(int i, int j) const {
   return {xs_[static_cast<size_t>(i)].axis, ys_[static_cast<size_t>(j)].axis};
 }
 
-// Shops with their fronts to the corridors around them.
+// Shops with their fronts facing the surrounding corridors.
 void Building::AddBlock(const Vector2d& lower,
                         const Vector2d& upper,
                         Random& random,
@@ -49,7 +49,7 @@ void Building::AddBlock(const Vector2d& lower,
   for (int i = 0; i < 4; ++i) {
     const double half_length = i % 2 == 0 ? half.x() : half.y();
     const double out = i % 2 == 0 ? half.y() : half.x();
-    // Its face is y = 0 and looks out of the block.
+    // The face of the wall is y = 0 and points out of the block.
     const Rigid3 frame =
         Place(middle.x(), middle.y(), i * M_PI / 2.0) * Place(0.0, out, 0.0);
     std::vector<WallPatch> patches;
@@ -74,7 +74,7 @@ void Building::AddBlock(const Vector2d& lower,
   }
 }
 
-// Open to the corridors around it.
+// A hall open to the surrounding corridors.
 void Building::AddHall(const Vector2d& lower,
                        const Vector2d& upper,
                        Random& random,
@@ -96,7 +96,7 @@ void Building::AddHall(const Vector2d& lower,
 }
 
 Scene Building::MakeScene() const {
-  constexpr double kOuter = 12.0;  // Behind the outer walls [m].
+  constexpr double kOuter = 12.0;  // Beyond the outer walls [m].
   Random random(Mix(seed_) ^ 10);
   Scene scene;
   const double x0 = xs_.front().axis - xs_.front().half_width;
@@ -111,7 +111,7 @@ Scene Building::MakeScene() const {
                   {x0 - kOuter, y1 + kOuter, z},
                   shade);
   }
-  // The outer walls look inwards.
+  // The outer walls face inward.
   const Vector2d middle((x0 + x1) / 2.0, (y0 + y1) / 2.0);
   for (int i = 0; i < 4; ++i) {
     const double half = (i % 2 == 0 ? x1 - x0 : y1 - y0) / 2.0;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // One floor of a large building: corridors of different widths between blocks
-// of shops, and halls where a block is missing, with pillars, doors, shop
-// fronts, furniture and things along the walls.
+// of shops, and halls in place of some blocks, with pillars, doors, shop
+// fronts, furniture and objects along the walls.
 //
-// The corridors are a grid; z is up, and the floor is at 0.
+// The corridors form a grid. z points up, and the floor is at z = 0.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_BUILDING_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_BUILDING_H_
@@ -22,10 +22,10 @@ class Building {
   // Corridors along y, by ascending x, and along x, by ascending y.
   Building(uint64_t seed, int num_corridors_x, int num_corridors_y);
 
-  // Of the corridors' axes [m].
+  // The intersection of two corridor axes [m].
   Eigen::Vector2d Crossing(int i, int j) const;
 
-  // Nothing stands within 1 m of the corridors' axes.
+  // There are no objects within 1 m of the corridor axes.
   Scene MakeScene() const;
 
  private:

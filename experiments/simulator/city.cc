@@ -18,9 +18,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kHalfWidth = 5.5;     // Of a carriageway [m].
+constexpr double kHalfWidth = 5.5;     // Of a roadway [m].
 constexpr double kOutskirts = 60.0;    // Around the outermost streets [m].
-constexpr double kBendLength = 310.0;  // Wave length of (1) [m].
+constexpr double kBendLength = 310.0;  // Wavelength of (1) [m].
 
 double DistanceToClosest(const std::vector<double>& axes, double x) {
   double distance = std::abs(x - axes.front());
@@ -30,7 +30,7 @@ double DistanceToClosest(const std::vector<double>& axes, double x) {
   return distance;
 }
 
-// Fine at the kerbs, coarse inside the blocks.
+// Fine near the curbs, coarse inside the blocks.
 std::vector<double> GridLines(const std::vector<double>& axes) {
   std::vector<double> lines;
   for (double x = axes.front() - kOutskirts; x < axes.back() + kOutskirts;) {
@@ -50,7 +50,7 @@ std::vector<double> GridLines(const std::vector<double>& axes) {
   return lines;
 }
 
-// One street of the plan as what street.h builds along.
+// One street of the plan as a StreetAxis for street.h.
 class CityStreet : public StreetAxis {
  public:
   CityStreet(const City& city,
@@ -129,7 +129,7 @@ City::City(const CityOptions& options) : options_(options) {
   bend_frequency_ = 2.0 * M_PI / kBendLength;
   bend_phase_u_ = draw_phase();
   bend_phase_v_ = draw_phase();
-  // Two hills across each other, whose grades add up where they are steepest.
+  // Two crossing sinusoidal hills, whose grades add up where they are steepest.
   double azimuth = draw_phase();
   for (const double length : {260.0, 170.0}) {
     const double frequency = 2.0 * M_PI / length;
@@ -217,13 +217,13 @@ Scene City::MakeScene() const {
   sides.clear_mouths = true;
   sides.terrace = options_.terrace;
   sides.reach = std::min(58.0, 0.42 * options_.block);
-  // More open than the street of road.h: voxels, matches and the share of true
-  // ones are then those of KITTI (compare_kitti.py).
+  // More open than the street of road.h, so that voxels, matches and the inlier
+  // share are similar to KITTI's (compare_kitti.py).
   sides.deeper = 6.0;
   sides.gap = 20.0;
   sides.park = 0.2;
   sides.plants = 1.0;
-  // The streets along u have the corners of the blocks.
+  // The corners of the blocks belong to the streets along u.
   sides.corner = 4.0;
   for (const double axis : vs_) {
     AddStreetSides(CityStreet(*this,
@@ -255,7 +255,7 @@ std::vector<Vector2d> PlanDrive(const City& city,
                                 const std::vector<Crossing>& route,
                                 double spacing) {
   constexpr double kLane = 1.3;   // To the right of the axis [m].
-  constexpr double kTurn = 9.0;   // A turn begins this far off [m].
+  constexpr double kTurn = 9.0;   // A turn starts at this distance [m].
   constexpr double kFine = 0.05;  // [m]
   std::vector<Vector2d> fine;
   const auto add_line = [&](const Vector2d& from, const Vector2d& to) {

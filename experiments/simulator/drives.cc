@@ -34,7 +34,7 @@ struct Plan {
   const char* name;
   int num_streets_u, num_streets_v;
   double block, max_grade, terrace;  // [m], [rad], share.
-  const char* route;                 // Crossings, u and v a digit each.
+  const char* route;                 // Crossings: two digits, u and v.
 };
 
 constexpr Plan kPlans[] = {
@@ -91,7 +91,7 @@ double Normal(Random& random) {
   return radius * std::cos(2.0 * M_PI * random.Uniform());
 }
 
-// Roll and pitch of a carrier on its springs, s metres from the start.
+// Roll and pitch of a vehicle on its suspension, s meters from the start.
 class Springs {
  public:
   Springs(double sigma, Random& random) {
@@ -129,7 +129,7 @@ Rigid3 Up(double height) {
   return {Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, height)};
 }
 
-// The direction of the way at its i-th point.
+// The direction of the path at its i-th point.
 Vector2d Along(const std::vector<Vector2d>& way, size_t i) {
   const size_t before = i == 0 ? 0 : i - 1;
   return way[std::min(i + 1, way.size() - 1)] - way[before];
@@ -142,10 +142,10 @@ void KeepFrames(const DriveOptions& options, std::vector<Vector2d>* way) {
   }
 }
 
-// Cars that drive on along their street, and begin again at its end.
+// Cars that drive along their street and start again at its end.
 struct Traffic {
   struct Car {
-    std::vector<Vector2d> way;  // Of one frame a point.
+    std::vector<Vector2d> way;  // One point per frame.
     size_t start;
     Scene scene;  // In the car's frame.
   };
@@ -203,7 +203,7 @@ Drive MakeCityDrive(const DriveOptions& options, const Plan& plan) {
   const auto traffic = std::make_shared<const Traffic>(
       MakeTraffic(*city, options.num_moving_cars, random));
   drive.moving = [city, traffic, way](int frame) {
-    constexpr double kTooClose = 7.0;  // To the car that drives [m].
+    constexpr double kTooClose = 7.0;  // To the car with the sensor [m].
     Scene scene;
     for (const Traffic::Car& car : traffic->cars) {
       const size_t i =
@@ -238,7 +238,7 @@ Drive MakeBuildingDrive(const DriveOptions& options, const Plan& plan) {
       fine.emplace_back(from + t / length * (to - from));
     }
   }
-  // Rounds the corners off.
+  // Rounds off the corners.
   constexpr size_t kWindow = 30;
   std::vector<Vector2d> way;
   const auto step =
@@ -261,7 +261,7 @@ Drive MakeBuildingDrive(const DriveOptions& options, const Plan& plan) {
   return drive;
 }
 
-// Rates by differences of the frames before and after.
+// Rates from differences between the previous and the next frame.
 InsReading RatesAt(const std::vector<Rigid3>& poses, size_t i) {
   const size_t before = i == 0 ? 0 : i - 1;
   const size_t after = std::min(i + 1, poses.size() - 1);
@@ -379,7 +379,8 @@ Drive MakeDrive(const DriveOptions& options) {
 
 std::vector<InsReading> MeasureDrive(const Drive& drive,
                                      const DriveOptions& options) {
-  // Each drive has an INS of its own; the building's, 0, by the seed alone.
+  // Each drive has its own INS errors; the building's number is 0, so only the
+  // seed determines them.
   const auto number = static_cast<uint64_t>(PlanOf(options.name) - kPlans + 1) %
                       std::size(kPlans);
   Random random(Mix(options.seed ^ number << 32) ^ 13);

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Drives that stand in for sequences of KITTI odometry and for a building of
-// NAVER LABS', by name:
+// Drives that replace sequences of KITTI odometry and a building of NAVER LABS,
+// by name:
 //
-//   00, 05  many loops, both ways        02  long, hilly, between gaps
-//   06      one long block, same way     07  one small block
+//   00, 05  many loops, both ways        02     long, hilly, between gaps
+//   06      one long block, same way     07     one small block
 //   08      two blocks, the other way    hd_b1  halls and corridors, VLP-16
 //
-// They are simulated, and as good as the simulator
-// (experiments/scripts/compare_kitti.py says how good); what they share with
-// their namesakes is the shape of the way. Written in the layout of
-// kitti_layout.h or naver_layout.h, with the readings of an INS.
+// They are simulated, so they are only as realistic as the simulator (measured
+// by experiments/scripts/compare_kitti.py). They share with their namesakes the
+// shape of the path. They are written in the layout of kitti_layout.h or
+// naver_layout.h, with the readings of an INS.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_DRIVES_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_DRIVES_H_
@@ -31,19 +31,19 @@ std::vector<std::string> DriveNames();
 
 struct DriveOptions {
   std::string name = "00";
-  uint64_t seed = 1;            // Of the world, the noise and the traffic.
-  int num_frames = 0;           // 0: to the end of the way.
+  uint64_t seed = 1;            // Of world, noise and traffic.
+  int num_frames = 0;           // 0: to the end of the path.
   double frame_spacing = 1.0;   // [m]; at 10 Hz.
-  std::string sensor = "auto";  // One of sensors.h; auto: that of the name.
+  std::string sensor = "auto";  // See sensors.h; auto: by the name.
 
-  // Points are where the moving sensor saw them, without a correction.
+  // If true, points are where the moving sensor saw them, without correction.
   bool has_sweep_motion = false;
 
   int num_moving_cars = 15;    // In a city.
-  double tilt_sigma = 0.0052;  // Of roll and pitch on the springs [rad].
+  double tilt_sigma = 0.0052;  // Of roll and pitch (suspension) [rad].
 
-  // Of the INS' roll, pitch and yaw: noise of each frame, and what is the same
-  // for all of a drive [rad].
+  // Errors of the INS' roll, pitch and yaw: noise per frame, and a constant
+  // part per drive [rad].
   double ins_sigma = 0.0009;
   double ins_bias_sigma = 0.005;
 
@@ -56,10 +56,10 @@ struct DriveOptions {
 
 struct Drive {
   Scene scene;
-  std::vector<Rigid3> world_from_sensor;  // Of each frame.
+  std::vector<Rigid3> world_from_sensor;  // Per frame.
   std::string sensor;
 
-  // What else is there in frame i.
+  // The moving objects in frame i.
   std::function<Scene(int frame)> moving;
 };
 
@@ -70,7 +70,7 @@ Drive MakeDrive(const DriveOptions& options);
 std::vector<InsReading> MeasureDrive(const Drive& drive,
                                      const DriveOptions& options);
 
-// As SimulateSequence() of simulator.h.
+// Like SimulateSequence() of simulator.h.
 bool SimulateDrive(const DriveOptions& options,
                    const std::string& output_dir,
                    const std::function<void(int, int)>& progress,

@@ -186,7 +186,7 @@ void AddWallFeature(double x,
   const double door = std::min(2.1, wall_height - 0.2);
   const float shade = Shade(random, 0.3, 0.8);
   const double kind = random.Uniform();
-  if (kind < 0.4) {  // Door, and what is around it.
+  if (kind < 0.4) {  // Door with its frame.
     const double half = Uniform(random, 0.4, 0.9);
     const double depth = Uniform(random, 0.05, 0.3);
     patches.push_back(

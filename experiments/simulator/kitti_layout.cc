@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// 3x4 row by row, as KITTI writes it, with digits enough to give it back.
+// Formats a 3x4 matrix row by row, as in KITTI, with enough digits to recover
+// it.
 std::string FormatRows(const Eigen::Matrix<double, 3, 4>& matrix) {
   std::string line;
   for (Eigen::Index i = 0; i < 12; ++i) {
@@ -34,8 +35,8 @@ std::string FormatRigid3(const Rigid3& transform) {
   return FormatRows(transform.ToMatrix().topRows<3>());
 }
 
-// Rectified pinhole cameras [px] beside each other, 0 and 1 grey, 2 and 3
-// colour, and the sensor in cam0.
+// Rectified pinhole cameras [px] in a row, 0 and 1 gray, 2 and 3 color, and the
+// sensor in cam0.
 std::string FormatCalibration() {
   constexpr double kOffsets[] = {0.0, 0.54, -0.06, 0.47};  // [m]
   std::string text;
@@ -68,7 +69,7 @@ std::string FormatOxts(const InsReading& reading) {
   const Eigen::Matrix3d body_from_world =
       WorldFromBody(reading.attitude).transpose();
   const Eigen::Matrix3d level_from_world =
-      RotationZ(-reading.attitude.yaw);  // Forward, leftward, upward.
+      RotationZ(-reading.attitude.yaw);  // Forward, left, up.
   const Eigen::Matrix3d level_from_body =
       LevelFromBody(reading.attitude.roll, reading.attitude.pitch);
   const Eigen::Vector3d felt =
@@ -95,12 +96,11 @@ std::string FormatOxts(const InsReading& reading) {
   add_vector(reading.turn_rate);
   add_vector(level_from_body * reading.turn_rate);
   add({0.1, 0.02});       // Accuracies [m], [m/s].
-  add({4, 10, 4, 4, 4});  // States: number of satellites is the second.
+  add({4, 10, 4, 4, 4});  // States; the second is the number of satellites.
   return line + "\n";
 }
 
-// Mounted half a degree askew, as
-// no real camera is aligned.
+// Rotated by about half a degree, because no real camera is perfectly aligned.
 Rigid3 Cam0FromSensor() {
   Eigen::Matrix3d axes;
   axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;

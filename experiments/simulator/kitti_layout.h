@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A sequence on disk as KITTI odometry has it, with the INS of KITTI raw:
+// A sequence on disk in the layout of KITTI odometry, with the INS of KITTI
+// raw:
 //
 //   velodyne/000000.bin ...   float32 x y z intensity, sensor frame [m]
 //   poses.txt                 P_i, 3x4 row by row: cam0 of frame i in cam0 of
 //                             frame 0
 //   calib.txt                 P0 .. P3, and Tr: sensor points into cam0
 //   times.txt                 [s]
-//   oxts/data/0000000000.txt  30 numbers a frame, see FormatOxts()
+//   oxts/data/0000000000.txt  30 numbers per frame, see FormatOxts()
 //
-// so that points of frame i are moved into frame j by
+// Points of frame i are moved into frame j by
 //
 //   x_in_j = Tr^-1 P_j^-1 P_i Tr x_in_i.                                  (1)
 
@@ -28,16 +29,16 @@ namespace quatro {
 
 // One line: lat lon alt [deg, deg, m] roll pitch yaw [rad] vn ve vf vl vu [m/s]
 // ax ay az af al au [m/s^2] wx wy wz wf wl wu [rad/s], two accuracies and five
-// states. Positions by the Mercator projection of KITTI's development kit,
-// scaled as at a latitude of 49 deg.
+// states. Positions use the Mercator projection of KITTI's development kit,
+// with the scale of a latitude of 49 deg.
 std::string FormatOxts(const InsReading& reading);
 
-// Cam0 as it is mounted in simulated sequences: x right, y down, z forward.
+// The mounting of cam0 in simulated sequences: x right, y down, z forward.
 Rigid3 Cam0FromSensor();
 
 class KittiWriter : public SequenceWriter {
  public:
-  // Returns a nullptr and sets *error if there can be no such folder.
+  // Returns nullptr and sets *error if the folder cannot be created.
   static std::unique_ptr<KittiWriter> Create(const std::string& output_dir,
                                              bool overwrite,
                                              std::string* error);

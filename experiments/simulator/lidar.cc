@@ -18,19 +18,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Random numbers by counter: what is drawn for one ray does not depend on
-// which rays came before.
+// Counter-based random numbers: the values of one ray do not depend on previous
+// rays.
 class RayNoise {
  public:
   RayNoise(const ScanId& id, uint64_t ray)
       : key_(Mix(Mix(Mix(id.seed) ^ id.frame) ^ ray)) {}
 
-  // In (0, 1).
+  // Uniform in (0, 1).
   double Uniform(uint64_t stream) const {
     return (static_cast<double>(Mix(key_ ^ stream) >> 12) + 0.5) * 0x1p-52;
   }
 
-  // Box-Muller, of streams `stream` and `stream + 1`.
+  // Box-Muller, from streams `stream` and `stream + 1`.
   double Normal(uint64_t stream) const {
     return std::sqrt(-2.0 * std::log(Uniform(stream))) *
            std::cos(2.0 * M_PI * Uniform(stream + 1));
@@ -58,7 +58,7 @@ double MissProbability(const LidarOptions& options,
 
 struct Echo {
   Vector3d point;
-  float intensity = -1.0f;  // Negative: there is none.
+  float intensity = -1.0f;  // Negative: no echo.
 };
 
 }  // namespace
@@ -112,8 +112,8 @@ bool LidarOptions::IsValid(std::string* error) const {
 std::unique_ptr<LidarScene> LidarScene::Create(const Scene& scene,
                                                std::string* error) {
   std::unique_ptr<LidarScene> result(new LidarScene);
-  // A tree built by one thread is the same each time, which settles ties
-  // between triangles that share an edge.
+  // A tree built by one thread is reproducible, which settles ties between
+  // triangles that share an edge.
   result->device_ = rtcNewDevice("threads=1");
   if (result->device_ == nullptr) {
     *error = "Embree has no device";

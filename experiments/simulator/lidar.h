@@ -1,23 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A spinning lidar that turns once, standing still or moving evenly.
+// A spinning lidar during one revolution, stationary or moving uniformly.
 //
-// Beam b and column c look along
+// Beam b and column c have the direction
 //
 //   d = (cos e cos a, cos e sin a, sin e),   e = elevation[b],
 //   a = offset[b] - 2 pi (c + phase) / num_columns,                      (1)
 //
-// phase in [0, 1) of the frame,
-//
-// and measure d (r + n), with r the distance to the first triangle on the ray
-// and n ~ N(0, range_sigma^2). An echo is missed with probability
+// with the phase in [0, 1) of the frame. They measure d (r + n), with the
+// distance r to the first triangle on the ray and n ~ N(0, range_sigma^2). An
+// echo is missed with probability
 //
 //   1 - (1 - dropout_rate) / (1 + (r / r0)^8),
 //   r0 = max_range sqrt(reflectance / 0.8 * sqrt(cos(incidence))),        (2)
 //
-// so that asphalt fades out at about 30 m and a white facade seen head-on at
-// 100 m. Noise, phase and misses are hashes of (seed, frame, beam, column):
-// a scan is the same bit by bit for any number of threads.
+// so that asphalt fades out at about 30 m and a white facade at normal
+// incidence at 100 m. Noise, phase and misses are hashes of (seed, frame, beam,
+// column), so a scan is bit for bit the same for any number of threads.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_LIDAR_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_LIDAR_H_
@@ -31,7 +30,7 @@
 #include "features/base/rigid3.h"
 #include "features/io/point_cloud.h"
 
-// Of Embree.
+// Types of Embree.
 struct RTCDeviceTy;
 struct RTCSceneTy;
 
@@ -43,28 +42,28 @@ std::vector<double> Hdl64Elevations();
 
 struct LidarOptions {
   std::vector<double> elevations = Hdl64Elevations();  // [rad]
-  std::vector<double> azimuth_offsets;  // Of each beam [rad]; empty: all 0.
-  int num_columns = 2083;               // Per turn: one each 0.1728 deg.
+  std::vector<double> azimuth_offsets;  // Per beam [rad]; empty: all 0.
+  int num_columns = 2083;               // Per revolution: every 0.1728 deg.
   double min_range = 0.9;               // [m]
   double max_range = 120.0;             // [m]
   double range_sigma = 0.02;            // [m]
-  double dropout_rate = 0.05;           // Echoes missed however good they are.
+  double dropout_rate = 0.05;           // Probability of missing any echo.
 
   bool IsValid(std::string* error) const;
 };
 
-// Which scan it is; only the random part depends on it.
+// Identifies a scan; only its random part depends on this.
 struct ScanId {
   uint64_t seed = 1;
   uint64_t frame = 0;
 };
 
-// How the sensor moves while it turns once. Points stay in the frame of the
-// sensor at their own moment, as they are measured: column c of n is seen from
+// The motion of the sensor during one revolution. Points are in the frame of
+// the sensor at their own time, as measured: column c of n is seen from
 //
 //   R exp((f - 1/2) turn),  t + (f - 1/2) velocity,   f = (c + phase) / n,  (3)
 //
-// with (R, t) the pose in the middle of the turn.
+// where (R, t) is the pose in the middle of the revolution.
 struct Sweep {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // In the world [m].
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();      // Of the sensor [rad].
@@ -72,10 +71,10 @@ struct Sweep {
   bool IsStill() const { return velocity.isZero(0.0) && turn.isZero(0.0); }
 };
 
-// A scene made ready for ray casting by Embree.
+// A scene prepared for ray casting with Embree.
 class LidarScene {
  public:
-  // Returns a nullptr and sets *error if Embree refuses.
+  // Returns nullptr and sets *error if Embree fails.
   static std::unique_ptr<LidarScene> Create(const Scene& scene,
                                             std::string* error);
   ~LidarScene();
@@ -83,8 +82,8 @@ class LidarScene {
   LidarScene& operator=(const LidarScene&) = delete;
 
   // Points in the sensor frame (x forward, y left, z up) with intensities in
-  // [0, 1], beam by beam. `options` must be valid; num_threads 0 is all there
-  // are. `others`, if given, is in the same world.
+  // [0, 1], beam by beam. `options` must be valid; num_threads 0 uses all
+  // cores. `others`, if given, is in the same world.
   PointCloud Scan(const Rigid3& world_from_sensor,
                   const LidarOptions& options,
                   const ScanId& id,

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A drive on disk as NAVER LABS' indoor data sets are (kapture 1.1), with one
-// lidar:
+// A drive on disk in the layout of NAVER LABS' indoor data sets (kapture 1.1),
+// with one lidar:
 //
-//   sensors/sensors.txt                lidar0, , lidar
-//   sensors/records_lidar.txt          stamp, lidar0, lidar0/000000.pcd
-//   sensors/trajectories.txt           stamp, lidar0, qw, qx, qy, qz, tx, ty,
-//   tz sensors/records_ins.txt            stamp, ins0, roll, pitch, yaw
+//   sensors/sensors.txt          lidar0, , lidar
+//   sensors/records_lidar.txt    stamp, lidar0, lidar0/000000.pcd
+//   sensors/trajectories.txt     stamp, lidar0, qw, qx, qy, qz, tx, ty, tz
+//   sensors/records_ins.txt      stamp, ins0, roll, pitch, yaw
 //   sensors/records_data/lidar0/000000.pcd ...
 //
-// Poses are lidar from world, the inverse of ours. Stamps are microseconds,
-// angles radians. The INS is a record of a type of our own, which kapture lets
-// one add; NAVER LABS' have none.
+// Poses are lidar from world, the inverse of ours. Stamps are in microseconds,
+// angles in radians. The INS is a custom record type, which kapture allows;
+// NAVER LABS' data sets have none.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_NAVER_LAYOUT_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_NAVER_LAYOUT_H_
@@ -28,7 +28,7 @@ namespace quatro {
 
 class NaverWriter : public SequenceWriter {
  public:
-  // Returns a nullptr and sets *error if there can be no such folder.
+  // Returns nullptr and sets *error if the folder cannot be created.
   static std::unique_ptr<NaverWriter> Create(const std::string& output_dir,
                                              bool overwrite,
                                              std::string* error);

@@ -35,7 +35,7 @@ std::string Format(const char* format, double value) {
   return text;
 }
 
-// tx,ty,tz,qx,qy,qz,qw
+// Formats tx,ty,tz,qx,qy,qz,qw.
 std::string FormatPose(const Rigid3& pose) {
   Eigen::Quaterniond q(pose.rotation);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
@@ -90,7 +90,7 @@ std::string FormatRow(const PairSetOptions& set,
   return row + "\n";
 }
 
-// All that pairs depend on, so not how many there are.
+// All inputs of the pairs, which therefore excludes their number.
 nlohmann::json Describe(const PairSetOptions& set) {
   return {{"world", WorldName(set.world)},
           {"seed", set.seed},
@@ -104,7 +104,7 @@ nlohmann::json Describe(const PairSetOptions& set) {
           {"ins_std_deg", set.ins_sigma / kDegree}};
 }
 
-// Makes the folder, or finds it to be of the same sets.
+// Creates the folder, or checks that it belongs to the same sets.
 bool OpenFolder(const std::vector<PairSetOptions>& sets,
                 const fs::path& folder,
                 std::string* error) {
@@ -116,12 +116,12 @@ bool OpenFolder(const std::vector<PairSetOptions>& sets,
     const auto text = ReadWholeFile(file.string(), error);
     if (!text) return false;
     if (nlohmann::json::parse(*text, nullptr, false) == settings) return true;
-    *error = file.string() + ": pairs of other options are in this folder";
+    *error = file.string() + ": the folder contains pairs with other options";
     return false;
   }
   if (fs::exists(folder, code) &&
       (!fs::is_directory(folder, code) || !fs::is_empty(folder, code))) {
-    *error = folder.string() + ": is there and is no folder of pairs";
+    *error = folder.string() + ": exists and is not a folder of pairs";
     return false;
   }
   MakeFolders(folder / "rows", &code);
@@ -145,7 +145,7 @@ fs::path RowFile(const fs::path& folder, const PairSetOptions& set, int index) {
   return folder / "rows" / (set.Name() + name);
 }
 
-// The row comes last: it vouches for the scans.
+// The row is written last; its existence means that the scans are complete.
 bool WritePair(const PairSetOptions& set,
                int index,
                const fs::path& folder,
@@ -221,7 +221,7 @@ bool WritePairSets(const std::vector<PairSetOptions>& sets,
       if (!fs::exists(RowFile(folder, set, i))) missing.emplace_back(&set, i);
     }
   }
-  std::mutex mutex;  // Of what is below.
+  std::mutex mutex;  // Protects the variables below.
   int num_done = 0;
   bool ok = true;
   ParallelFor(num_threads,

@@ -16,7 +16,7 @@
 namespace quatro {
 namespace {
 
-// Two cars this far apart have nothing in their ranges in common [m].
+// Two cars this far apart have disjoint ranges [m].
 constexpr double kFarApart = 300.0;
 
 double Normal(Random& random) {
@@ -24,7 +24,8 @@ double Normal(Random& random) {
   return radius * std::cos(2.0 * M_PI * random.Uniform());
 }
 
-// Of the sensor against gravity and the world's x axis, with an error.
+// The attitude of the sensor relative to gravity and the world's x axis, with
+// an error.
 Attitude Measure(const Rigid3& world_from_sensor,
                  double sigma,
                  Random& random) {
@@ -37,7 +38,7 @@ Attitude Measure(const Rigid3& world_from_sensor,
   return attitude;
 }
 
-// A second world for a pair without common ground; what it is apart by.
+// A second world for a pair without overlap; returns the kind of separation.
 std::string OtherWorld(const PairSetOptions& set,
                        Random& random,
                        WorldOptions* world) {
@@ -106,7 +107,7 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
       Mix(Mix(Mix(options.seed) ^ set_key) ^ static_cast<uint64_t>(index)));
   WorldOptions world_options;
   world_options.kind = options.world;
-  world_options.seed = random.Next() >> 11;  // So that a double can hold it.
+  world_options.seed = random.Next() >> 11;  // So that it fits into a double.
   world_options.distance =
       Uniform(random, options.min_distance, options.max_distance);
   world_options.yaw = Uniform(random, -options.max_yaw, options.max_yaw);
@@ -117,14 +118,14 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
   SetPair pair;
   pair.seed = pair.target_seed = world_options.seed;
   const World world = MakeWorld(world_options);
-  std::optional<World> other;  // Of the source, if that is elsewhere.
+  std::optional<World> other;  // World of the source, if different.
   if (options.no_overlap) {
     WorldOptions other_options = world_options;
     pair.apart = OtherWorld(options, random, &other_options);
     pair.seed = other_options.seed;
     other = MakeWorld(other_options);
   }
-  // One long street is both worlds.
+  // Both worlds are parts of one long street.
   const World& of_source = other ? *other : world;
   const World& of_target = pair.apart == "far_apart" ? *other : world;
   pair.sensor = options.sensor == "auto" ? of_target.sensor : options.sensor;

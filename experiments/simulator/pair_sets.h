@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Sets of simulated pairs, each pair in a world of its own.
+// Sets of simulated pairs, each pair in its own world.
 //
-// Pair i of a set depends on the set's options and on i alone.
+// Pair i of a set depends only on the set's options and on i.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_PAIR_SETS_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_PAIR_SETS_H_
@@ -24,29 +24,31 @@ struct PairSetOptions {
   int num_pairs = 100;
   uint64_t seed = 1;
 
-  // Drawn evenly from these: how far apart the places are, along the way [m];
-  // the turn of the source, either way [rad]; for hills, the tilt [rad].
+  // Ranges of uniform distributions: the distance of the places along the path
+  // [m]; the yaw of the source, in either direction [rad]; for hills, the tilt
+  // [rad].
   double min_distance = 0.0;
   double max_distance = 30.0;
   double max_yaw = 3.15;
   double min_tilt = 0.035;
   double max_tilt = 0.26;
 
-  // Scans with nothing in common, from worlds that look alike.
+  // If true, the scans do not overlap and come from worlds that look alike.
   bool no_overlap = false;
 
-  // Of corridors; negative: by the seed (worlds.h).
+  // For corridors; negative: by the seed (worlds.h).
   int num_features = -1;
 
-  // One of sensors.h, or `auto`: that of the world.
+  // A sensor of sensors.h, or `auto` for the sensor of the world.
   std::string sensor = "auto";
 
-  double tilt_sigma = 0.0052;  // Of roll and pitch on the springs [rad].
+  double tilt_sigma = 0.0052;  // Of roll and pitch (suspension) [rad].
   double ins_sigma = 0.0087;   // Of the INS' roll, pitch and yaw [rad].
 
   bool IsValid(std::string* error) const;
 
-  // Name of the set and of its folder: the world's, with _apart if no_overlap.
+  // The name of the set and of its folder: the world's name, with _apart if
+  // no_overlap.
   std::string Name() const;
 };
 
@@ -54,7 +56,7 @@ struct SetPair {
   PointCloud source;
   PointCloud target;
 
-  // Nullopt if they have nothing in common.
+  // Nullopt if the scans do not overlap.
   std::optional<Rigid3> true_target_from_source;
   std::optional<Rigid3> twin_target_from_source;
 
@@ -63,19 +65,18 @@ struct SetPair {
   Rigid3 world_from_source;  // Each in its own world.
   Rigid3 world_from_target;
   std::string variant, sensor, apart;
-  uint64_t seed = 0;  // Of the source's world.
+  uint64_t seed = 0;  // Of the world of the source.
   uint64_t target_seed = 0;
 };
 
-// Pair `index` of the set. Returns nullopt and sets *error if the options are
-// invalid.
+// Simulates pair `index` of the set. Returns nullopt and sets *error if the
+// options are invalid.
 std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
                                        int index,
                                        std::string* error);
 
-// For a verdict's calibration: `scale` of 750 pairs with common ground (250
-// streets, 100 crossings, 100 each of the other kinds of world) and as many
-// without.
+// Sets for calibrating a verdict: `scale` times 750 pairs with overlap (250
+// streets, 100 crossings, 100 of each other kind of world) and as many without.
 std::vector<PairSetOptions> CalibrationSets(uint64_t seed, double scale);
 
 }  // namespace quatro

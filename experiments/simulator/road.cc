@@ -136,7 +136,7 @@ double Road::Heading(double s) const { return Sum(heading_waves_, s, 0.0); }
 
 double Road::Height(double s, double d) const {
   const int side = d > 0.0 ? 1 : -1;
-  double raised = 1.0;  // 0 in the mouth of a side street.
+  double raised = 1.0;  // 0 at the mouth of a side street.
   for (const SideStreet& street : side_streets_) {
     if (street.side != side) continue;
     raised *= SmoothStep(std::abs(s - street.s) - street.width / 2.0);

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The ground of a street and where a car stands on it.
+// The ground of a street, and the pose of a car on it.
 //
-// Places are (s, d): s metres along the axis, d to the left of it. With c(s)
-// the axis, n(s) its normal to the left and h the ground,
+// Places are (s, d): s meters along the axis, d to its left. With the axis
+// c(s), its normal n(s) to the left and the ground h,
 //
 //   x_in_world = ( c(s) + d n(s), h(s, d) ),                              (1)
 //   h = s tan(slope) + curve(s, d) + waves(s, d) + profile(s, d).
 //
-// The axis curves gently, with a radius above 100 m. The profile has a crown,
-// kerbs (lowered in the mouths of side streets), pavements and gardens. Between
-// curve_begin and curve_end the grade, d h / d s, and the bank, d h / d d,
-// change evenly, so that the road there is a parabola, as roads are built.
+// The axis curves gently, with a radius above 100 m. The waves are sinusoids.
+// The profile has a crown, curbs (lowered at the mouths of side streets),
+// sidewalks and gardens. Between curve_begin and curve_end the grade d h / d s
+// and the bank d h / d d change linearly, so that the road is a parabola there,
+// as in road construction.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_ROAD_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_ROAD_H_
@@ -29,23 +30,23 @@ namespace quatro {
 struct RoadOptions {
   uint64_t seed = 1;
   double length = 250.0;     // [m]
-  double slope = 0.0;        // Climb of the axis [rad].
-  double undulation = 0.05;  // Amplitude of the waves that are 40 m long [m].
-  double half_width = 4.5;   // Of the carriageway with parked cars [m].
+  double slope = 0.0;        // Slope of the axis [rad].
+  double undulation = 0.05;  // Amplitude of the 40 m sinusoids [m].
+  double half_width = 4.5;   // Of the roadway with parked cars [m].
 
-  // A crest (climb < 0) or a sag: by how much the road climbs more [rad] past
-  // curve_end than before curve_begin [m], and how much more it falls to the
-  // right [rad].
+  // A crest (climb < 0) or a sag: the change of grade between curve_begin and
+  // curve_end [m], and the change of bank, positive for falling to the right
+  // [rad].
   double curve_begin = 0.0;
   double curve_end = 1.0;
   double curve_climb = 0.0;
   double curve_bank = 0.0;
 
-  // Streets leave on both sides here [m], and none closer than 30 m; negative:
-  // wherever the seed has them.
+  // Side streets leave on both sides at this place [m], and no others within 30
+  // m; negative: the seed places them.
   double crossing = -1.0;
 
-  // Standard deviation of a car's roll and pitch on its springs [rad].
+  // Standard deviation of a car's roll and pitch on its suspension [rad].
   double tilt_sigma = 0.0052;
 
   bool IsValid(std::string* error) const;
@@ -54,7 +55,7 @@ struct RoadOptions {
 class Road final : public StreetAxis {
  public:
   static constexpr double kSensorHeight = 1.73;  // Above the ground [m].
-  static constexpr double kLane = -1.0;          // d of a car that drives [m].
+  static constexpr double kLane = -1.0;          // d of a moving car [m].
   static constexpr double kPavementWidth = 1.6;  // [m]
 
   // `options` must be valid.
@@ -70,12 +71,12 @@ class Road final : public StreetAxis {
   double Heading(double s) const override;
   Eigen::Vector3d SurfacePoint(double s, double d) const override;  // (1)
 
-  // Of a car that drives, `lateral` [m] to the left of its lane: origin in the
-  // sensor, axes as WorldFromGround but for the springs.
+  // The sensor on a car, `lateral` [m] to the left of its lane. The origin is
+  // in the sensor, with the axes of WorldFromGround except for the suspension.
   Rigid3 WorldFromSensor(double s, double lateral, double yaw) const;
 
  private:
-  // amplitude sin(along_s s + along_d d + phase)
+  // The sinusoid amplitude sin(along_s s + along_d d + phase).
   struct Wave {
     double amplitude, along_s, along_d, phase;
   };

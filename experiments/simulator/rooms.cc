@@ -23,7 +23,7 @@ Rigid3 Place(double x, double y, double yaw) {
   return {RotationZ(yaw), Vector3d(x, y, 0.0)};
 }
 
-// Bit for bit its own inverse, as (1) of the header wants it.
+// Bit for bit its own inverse, as (1) of the header requires.
 Rigid3 HalfTurn() {
   return {Vector3d(-1.0, -1.0, 1.0).asDiagonal(), Vector3d::Zero()};
 }
@@ -46,8 +46,8 @@ void AddLevel(double half_length,
                 reflectance);
 }
 
-// The i-th wall of a room, counter-clockwise from the one at y = -width / 2;
-// its face is y = 0 and looks into the room.
+// The i-th wall of a room, counter-clockwise from the one at y = -width / 2.
+// Its face is y = 0 and points into the room.
 Rigid3 WallFrame(const RoomOptions& room, int i) {
   const double half = (i % 2 == 0 ? room.width : room.length) / 2.0;
   return Rigid3{RotationZ(i * M_PI / 2.0), Vector3d::Zero()} *
@@ -102,7 +102,7 @@ class CorridorBuilder {
   }
 
  private:
-  // Where along the wall the i-th of n features is.
+  // The position along the wall of the i-th of n features.
   double DrawX(int i, int n) {
     const double step = 2.0 * (half_ - 2.0) / n;
     return -half_ + 2.0 + (i + Uniform(random_, 0.1, 0.9)) * step;
@@ -164,7 +164,7 @@ class CorridorBuilder {
   Scene scene_;
 };
 
-// With a half turn, only one half of what there is; Build() adds the other.
+// With a half turn, builds only one half of the hall; Build() adds the other.
 class HallBuilder {
  public:
   explicit HallBuilder(const HallOptions& options)
@@ -178,7 +178,7 @@ class HallBuilder {
   }
 
   Scene Build() {
-    constexpr double kPassages = 12.0;  // The deepest recess and more [m].
+    constexpr double kPassages = 12.0;  // Exceeds the deepest recess [m].
     Scene whole;
     for (const auto& [z, shade] :
          {std::pair(0.0, 0.35f), std::pair(options_.height, 0.7f)}) {
@@ -198,7 +198,7 @@ class HallBuilder {
   }
 
  private:
-  // Of two points that the half turn swaps, one is.
+  // Exactly one of two points that the half turn swaps is mine.
   bool IsMine(double x, double y) const {
     return !options_.has_half_turn || x > 0.0 || (x == 0.0 && y > 0.0);
   }
@@ -242,7 +242,7 @@ class HallBuilder {
     }
   }
 
-  // Walls that stand free, along x or y.
+  // Free-standing walls along x or y.
   void AddPartitions() {
     const auto num_partitions = static_cast<int>(
         Uniform(random_, 0.0, options_.has_half_turn ? 2.0 : 4.0));
@@ -339,7 +339,7 @@ Scene MakeTerrace(uint64_t seed, double period) {
   const bool has_lamps = random.Uniform() < 0.5;
   const double depth = Uniform(random, 8.0, 12.0);
   const Random of_house(random.Next()), of_tree(random.Next());
-  Scene cell;  // One house, its front towards -y.
+  Scene cell;  // One house, its front toward -y.
   Random house = of_house, tree = of_tree;
   AddHouse(Place(0.0, setback, M_PI), period - gap, depth, house, cell);
   if (has_trees) AddTree(Place(period / 2.0, 5.5, 0.0), tree, cell);

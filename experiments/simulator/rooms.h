@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Places with floors, and places that look like themselves:
+// Places with floors, some of them self-similar:
 //
 //   corridor   between two long walls, in a building or beside a road
 //   hall       pillars, partitions, furniture, shop fronts in its walls
-//   colonnade  pillars on a grid that goes on beyond the sensor's range
-//   terrace    a street of one house, built again and again on both sides
+//   colonnade  pillars on a grid that extends beyond the sensor's range
+//   terrace    a street of identical houses on both sides
 //
-// The world frame has its origin on the floor in the middle, x along the
-// longer side and z up. A place with a symmetry S looks the same from a sensor
-// at T as from one at S T:
+// The world frame has its origin on the floor in the middle, x along the longer
+// side and z up. A place with a symmetry S looks the same from a sensor at T as
+// from one at S T:
 //
 //   S { points of the scene } = { points of the scene }.                   (1)
 //
-// For a shift, (1) holds but for the far ends.
+// For a shift, (1) does not include the far ends.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_ROOMS_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_ROOMS_H_
@@ -28,28 +28,28 @@ namespace quatro {
 
 struct RoomOptions {
   uint64_t seed = 1;           // Of walls and pillars.
-  uint64_t contents_seed = 1;  // Of what can be moved.
+  uint64_t contents_seed = 1;  // Of movable objects.
   double length = 30.0;        // [m]
   double width = 20.0;         // [m]
   double height = 4.0;         // [m]
 
-  // No furniture within 2 m of these [m].
+  // There is no furniture within 2 m of these places [m].
   std::vector<Eigen::Vector2d> places;
 };
 
 struct CorridorOptions : RoomOptions {
-  bool is_outdoors = false;  // Walls beside a road, and no ceiling.
+  bool is_outdoors = false;  // Walls beside a road, no ceiling.
 
-  // Doors, niches, pilasters, side passages, lamps, things along the walls:
-  // all that tells where along the corridor one is. 0: nothing does but its
-  // ends.
+  // Doors, niches, pilasters, side passages, lamps and objects along the walls:
+  // everything that distinguishes places along the corridor. With 0, only its
+  // ends do.
   int num_features = 20;
 
-  // Those repeat after so many metres; 0: they don't.
+  // The period at which the features repeat [m]; 0: they do not repeat.
   double period = 0.0;
 };
 
-// Closed by walls at its ends, unless it is outdoors.
+// Closed by walls at its ends, except outdoors.
 Scene MakeCorridor(const CorridorOptions& options);
 
 struct HallOptions : RoomOptions {
@@ -59,7 +59,7 @@ struct HallOptions : RoomOptions {
 Scene MakeHall(const HallOptions& options);
 
 // S: shifts by spacing.x() along x and by spacing.y() along y, and R_z(pi).
-// `height` of the ceiling; a pillar stands at the origin.
+// `height` is that of the ceiling; there is a pillar at the origin.
 Scene MakeColonnade(uint64_t seed,
                     double height,
                     const Eigen::Vector2d& spacing);
@@ -67,8 +67,8 @@ Scene MakeColonnade(uint64_t seed,
 // S: shifts by `period` along x, and R_z(pi).
 Scene MakeTerrace(uint64_t seed, double period);
 
-// Crates, posts and bushes that stand about within 25 m of the origin and
-// break a symmetry; 2 m clear of `places`.
+// Adds crates, posts and bushes within 25 m of the origin, at least 2 m from
+// `places`, to break a symmetry.
 void AddOddThings(int num_things,
                   const std::vector<Eigen::Vector2d>& places,
                   double max_y,

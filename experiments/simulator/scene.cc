@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Sorted, without near-duplicates, clipped to [lower, upper].
+// Sorts, removes near-duplicates, and clips to [lower, upper].
 std::vector<double> Breakpoints(std::vector<double> values,
                                 double lower,
                                 double upper) {
@@ -157,7 +157,7 @@ void Scene::AddWall(const Rigid3& world_from_wall,
               at(x1, y, z1),
               at(x0, y, z1),
               here.reflectance);
-      // Reveals to the cell on the right and to the one above.
+      // Reveals to the next cells on the right and above.
       if (i + 2 < xs.size()) {
         const double next = patch_at((x1 + xs[i + 2]) / 2.0, z).offset;
         if (next != y) {
@@ -188,7 +188,7 @@ void Scene::AddFoliage(const Rigid3& world_from_foliage,
                        double leaf_size,
                        float reflectance,
                        Random& random) {
-  constexpr double kInnermost = 0.65;  // Of the radius.
+  constexpr double kInnermost = 0.65;  // Fraction of the radius.
   constexpr double kLumps = 0.18;
   const double phase = Uniform(random, 0.0, 2.0 * M_PI);
   for (int i = 0; i < num_leaves; ++i) {

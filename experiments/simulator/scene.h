@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a simulated sensor looks at: opaque triangles, each with a reflectance.
+// The input of a simulated sensor: opaque triangles, each with a reflectance.
 //
-// Shapes are added in a frame of their own, `world_from_shape`, with z up.
-// Neither winding nor overlaps matter to the sensor. What is random is drawn
-// from a Random that the caller seeds, so the same seed gives the same scene.
+// Shapes are added in their own frame, `world_from_shape`, with z up. Winding
+// and overlaps do not matter to the sensor. Random details are drawn from a
+// Random that the caller seeds, so the same seed gives the same scene.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_SCENE_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_SCENE_H_
@@ -24,7 +24,7 @@ inline double Uniform(Random& random, double lower, double upper) {
   return lower + (upper - lower) * random.Uniform();
 }
 
-// A rectangle of a wall that stands in front of it or behind.
+// A rectangle of a wall that protrudes or is recessed.
 struct WallPatch {
   double left, right, bottom, top;  // [m], in the wall's x and z.
   double offset;                    // [m], outward; negative is a recess.
@@ -53,28 +53,28 @@ struct Scene {
               const Eigen::Vector3d& upper,
               float reflectance);
 
-  // A convex `outline` in the x-z plane, drawn out from y_min to y_max.
+  // A convex `outline` in the x-z plane, extruded from y_min to y_max.
   void AddPrism(const Rigid3& world_from_prism,
                 const std::vector<Eigen::Vector2d>& outline,
                 double y_min,
                 double y_max,
                 float reflectance);
 
-  // About the z axis, closed at both ends.
+  // A cylinder about the z axis, closed at both ends.
   void AddCylinder(const Rigid3& world_from_cylinder,
                    double radius,
                    double z_min,
                    double z_max,
                    float reflectance);
 
-  // A wall in the plane y = 0 that is seen from +y, from left to right and
-  // bottom to top [m]. Patches are joined to it by their reveals; where they
-  // overlap, the last one counts.
+  // A wall in the plane y = 0 seen from +y, from left to right and bottom to
+  // top [m]. Patches are joined to it by their reveals; if patches overlap, the
+  // last one counts.
   void AddWall(const Rigid3& world_from_wall,
                const WallPatch& wall,
                const std::vector<WallPatch>& patches);
 
-  // Leaves: small triangles scattered through the outer shell of a lumpy
+  // Leaves: small triangles scattered in the outer shell of an irregular
   // ellipsoid about the frame's origin. `leaf_size` is their side [m].
   void AddFoliage(const Rigid3& world_from_foliage,
                   const Eigen::Vector3d& radii,
@@ -83,7 +83,7 @@ struct Scene {
                   float reflectance,
                   Random& random);
 
-  // A copy of all that `part` holds.
+  // Appends a copy of `part`.
   void Append(const Scene& part, const Rigid3& world_from_part);
 
   // The surface point(u, v) over a grid of parameters.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Lidars by name, as their data sheets have them at ten turns a second:
+// Lidars by name, with the properties of their data sheets at ten revolutions
+// per second:
 //
 //   hdl64e  Velodyne HDL-64E: +2 to -24.33 deg, 2083 columns, 120 m, 2 cm
 //   vlp16   Velodyne VLP-16: +15 to -15 deg in steps of 2 deg, 1800 columns,
@@ -22,7 +23,7 @@ namespace quatro {
 
 std::vector<std::string> SensorNames();
 
-// Nullopt, with the names there are in *error, if `name` is not one of them.
+// Returns nullopt, with the known names in *error, if `name` is unknown.
 std::optional<LidarOptions> MakeSensor(const std::string& name,
                                        std::string* error);
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Nothing there, an empty folder or, with `overwrite`, a sequence.
+// Accepts a missing folder, an empty folder or, with `overwrite`, a sequence.
 bool MayReplace(const fs::path& output, bool overwrite, std::string* error) {
   const std::set<std::string> known = {
       "velodyne", "poses.txt", "calib.txt", "times.txt", "oxts", "sensors"};
@@ -34,7 +34,7 @@ bool MayReplace(const fs::path& output, bool overwrite, std::string* error) {
     }
     if (!known.contains(name)) {
       *error = output.string() + ": holds '" + name +
-               "', which no sequence does; not overwritten";
+               "', which is not part of a sequence; not overwritten";
       return false;
     }
   }
@@ -42,7 +42,7 @@ bool MayReplace(const fs::path& output, bool overwrite, std::string* error) {
   return !code;
 }
 
-// Puts the complete folder in the place of what may be there.
+// Moves the complete folder to its place, replacing existing files.
 bool MoveInto(const fs::path& folder,
               const fs::path& output,
               std::string* error) {
@@ -93,7 +93,7 @@ std::unique_ptr<SequenceFolder> SequenceFolder::Create(
 SequenceFolder::~SequenceFolder() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
-  // Parents only if they are empty.
+  // Parents are removed only if they are empty.
   for (const fs::path& made : made_) fs::remove(made, ignored);
 }
 

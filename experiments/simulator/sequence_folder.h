@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A folder that is written beside its place and renamed when it is complete;
-// what is not finished is removed.
+// A folder that is written next to its final place and renamed when it is
+// complete. An incomplete folder is removed.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_SEQUENCE_FOLDER_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_SEQUENCE_FOLDER_H_
@@ -15,9 +15,9 @@ namespace quatro {
 
 class SequenceFolder {
  public:
-  // Returns a nullptr and sets *error if the folder holds anything (with
-  // `overwrite`: anything but a sequence, of any layout), or if it can't be
-  // written.
+  // Returns nullptr and sets *error if the folder is not empty (with
+  // `overwrite`: contains anything but a sequence, in any layout), or if it
+  // cannot be written.
   static std::unique_ptr<SequenceFolder> Create(const std::string& output_dir,
                                                 bool overwrite,
                                                 std::string* error);
@@ -25,7 +25,7 @@ class SequenceFolder {
   SequenceFolder(const SequenceFolder&) = delete;
   SequenceFolder& operator=(const SequenceFolder&) = delete;
 
-  // Where to write until then.
+  // The temporary place of the folder.
   const std::filesystem::path& path() const { return folder_; }
 
   bool Finish(std::string* error);
@@ -34,7 +34,7 @@ class SequenceFolder {
   SequenceFolder() = default;
 
   std::filesystem::path output_, folder_;
-  std::vector<std::filesystem::path> made_;  // folder_ and new parents of it.
+  std::vector<std::filesystem::path> made_;  // folder_ and its new parents.
 };
 
 }  // namespace quatro

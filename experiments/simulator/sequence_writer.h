@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A drive on its way to the disk, frame by frame, in some layout
-// (kitti_layout.h, naver_layout.h).
+// Writes a drive to disk frame by frame, in one of the layouts (kitti_layout.h,
+// naver_layout.h).
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_SEQUENCE_WRITER_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_SEQUENCE_WRITER_H_
@@ -15,14 +15,14 @@
 
 namespace quatro {
 
-// What an INS tells, in a world with x to the east, y to the north and z up,
-// of a body with x ahead, y to the left and z up.
+// The measurement of an INS, in a world with x to the east, y to the north and
+// z up, for a body with x ahead, y to the left and z up.
 struct InsReading {
   Attitude attitude;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      // [m], in the world.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // [m/s], likewise.
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // [m/s^2], likewise.
-  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();     // [rad/s], of body.
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  // [rad/s], in the body.
 };
 
 class SequenceWriter {
@@ -32,14 +32,15 @@ class SequenceWriter {
   SequenceWriter(const SequenceWriter&) = delete;
   SequenceWriter& operator=(const SequenceWriter&) = delete;
 
-  // The next frame, at `time` [s]. `reading` may be a nullptr, for all frames.
+  // Adds the next frame at `time` [s]. `reading` may be nullptr, for all
+  // frames.
   virtual bool Add(const PointCloud& cloud,
                    const Rigid3& world_from_sensor,
                    double time,
                    const InsReading* reading,
                    std::string* error) = 0;
 
-  // To be called once, after the last. Without it nothing is left behind.
+  // Call once, after the last frame. Without this call no files remain.
   virtual bool Finish(std::string* error) = 0;
 };
 

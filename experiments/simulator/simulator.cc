@@ -14,12 +14,12 @@
 namespace quatro {
 namespace {
 
-// Street before the first pose and after the last [m]: little that is further
-// away returns an echo.
+// Length of street before the first and after the last pose [m]; hardly any
+// echo comes from farther away.
 constexpr double kMargin = 90.0;
 constexpr double kFramePeriod = 0.1;  // [s]
 
-// The options that pairs and sequences share.
+// Checks the options that pairs and sequences share.
 template <typename Options>
 void CheckCommon(const Options& options, std::ostringstream* problem) {
   RoadOptions road;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Scans of a simulated street with their true poses: in memory as a pair, or
-// on disk as a sequence (kitti_layout.h) without an INS.
+// Scans of a simulated street with their true poses: in memory as a pair, or on
+// disk as a sequence (kitti_layout.h) without an INS.
 //
 // The sensor is the model of lidar.h on a car that follows the ground of
-// road.h. It does not move during a scan.
+// road.h. It is stationary during a scan.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_SIMULATOR_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_SIMULATOR_H_
@@ -21,13 +21,13 @@
 namespace quatro {
 
 struct SimulatePairOptions {
-  uint64_t seed = 1;       // Of the street and of the noise.
-  double distance = 10.0;  // The source is this far ahead of the target [m].
-  double yaw = 0.0;        // Turns the car of the source [rad].
-  double lateral = 0.0;    // Moves it to the left, seen from the target [m].
-  double slope = 0.0;      // [rad]
-  double tilt_sigma = 0.0052;  // Of roll and pitch on the springs [rad].
-  int num_threads = 1;         // 0: as many as the machine has.
+  uint64_t seed = 1;           // Of street and noise.
+  double distance = 10.0;      // Of the source ahead of the target [m].
+  double yaw = 0.0;            // Rotation of the source car [rad].
+  double lateral = 0.0;        // Shift to the left as seen from the target [m].
+  double slope = 0.0;          // [rad]
+  double tilt_sigma = 0.0052;  // Of roll and pitch (suspension) [rad].
+  int num_threads = 1;         // 0: all cores.
   LidarOptions lidar;
 
   bool IsValid(std::string* error) const;
@@ -49,10 +49,10 @@ struct SimulateSequenceOptions {
   double frame_spacing = 1.0;  // [m]
   double slope = 0.0;          // [rad]
   double tilt_sigma = 0.0052;  // [rad]
-  int num_threads = 1;         // 0: as many as the machine has.
+  int num_threads = 1;         // 0: all cores.
   LidarOptions lidar;
 
-  // Replaces a sequence that is there already.
+  // Replaces an existing sequence.
   bool overwrite = false;
 
   bool IsValid(std::string* error) const;
@@ -61,10 +61,10 @@ struct SimulateSequenceOptions {
 // Called after each frame.
 using SimulateProgress = std::function<void(int num_done, int num_frames)>;
 
-// Writes the sequence beside `output_dir` and renames it when it is complete.
-// Returns false and sets *error if the options are invalid, if the folder
-// holds anything (with overwrite: anything but a sequence), or if it can't be
-// written. `progress` may be empty.
+// Writes the sequence next to `output_dir` and renames it when it is complete.
+// Returns false and sets *error if the options are invalid, if the folder is
+// not empty (with overwrite: contains anything but a sequence), or if it cannot
+// be written. `progress` may be empty.
 bool SimulateSequence(const SimulateSequenceOptions& options,
                       const std::string& output_dir,
                       const SimulateProgress& progress,

@@ -19,8 +19,9 @@ using Eigen::Vector3d;
 
 Rigid3 Turn(double yaw) { return {RotationZ(yaw), Vector3d::Zero()}; }
 
-// Lays out the street. Sides are +1 (left) and -1, e = |d| is a distance from
-// the axis. All draw from one generator: their order is part of the street.
+// Builds the street. Sides are +1 (left) and -1; e = |d| is a distance from the
+// axis. All functions draw from one random generator, so their order affects
+// the street.
 class StreetBuilder {
  public:
   StreetBuilder(const StreetAxis& road, const StreetSides& sides, uint64_t seed)
@@ -59,7 +60,7 @@ class StreetBuilder {
   }
   bool Chance(double probability) { return random_.Uniform() < probability; }
 
-  // On the ground, y towards the axis.
+  // A frame on the ground with y toward the axis.
   Rigid3 Facing(double s, double e, int side) const {
     return road_.WorldFromUpright(s, side * e) * Turn(side > 0 ? M_PI : 0.0);
   }
@@ -93,7 +94,7 @@ class StreetBuilder {
         });
   }
 
-  // From (s0, e0) to (s1, e1).
+  // A border from (s0, e0) to (s1, e1).
   void AddBorder(const Border& border,
                  double s0,
                  double e0,
@@ -143,7 +144,7 @@ class StreetBuilder {
     }
   }
 
-  // Between two houses.
+  // Fills the gap between two houses.
   void AddGap(double s0, double s1, double setback, int side) {
     const double middle = (s0 + s1) / 2.0;
     const double e = setback + Draw(0.3, 5.0);
@@ -163,7 +164,7 @@ class StreetBuilder {
     }
   }
 
-  // From s to `end`, without a break.
+  // A block from s to `end` without gaps.
   void AddBlock(double s, double end, int side) {
     const bool is_terrace = Chance(sides_.terrace);
     const double usual_setback =
@@ -302,7 +303,7 @@ class StreetBuilder {
                scene_);
       }
     }
-    for (int i = 0; i < 8; ++i) {  // Where it ends.
+    for (int i = 0; i < 8; ++i) {  // The end of the side street.
       const double s = street.s + Draw(-0.5, 0.5) * street.width;
       AddPlant(s, sides_.reach - Draw(1.0, 4.0), street.side, 0.2);
     }
@@ -311,7 +312,7 @@ class StreetBuilder {
   const StreetAxis& road_;
   const StreetSides sides_;
   const double length_, kerb_;
-  const double garden_;  // Where the gardens begin [m].
+  const double garden_;  // Distance at which gardens start [m].
   Random random_;
   Scene scene_;
 };

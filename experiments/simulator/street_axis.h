@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a street is built along: places (s, d), s metres along an axis and d to
-// the left of it, on some ground (road.h, city.h).
+// The axis along which a street is built. Places are (s, d), s meters along the
+// axis and d to its left, on some ground (road.h, city.h).
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_STREET_AXIS_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_STREET_AXIS_H_
@@ -17,9 +17,9 @@
 namespace quatro {
 
 struct SideStreet {
-  double s = 0.0;      // Of its axis [m].
+  double s = 0.0;      // Position of its axis [m].
   double width = 8.0;  // [m]
-  int side = 1;        // +1 leaves to the left, -1 to the right.
+  int side = 1;        // +1: to the left, -1: to the right.
 };
 
 class StreetAxis {
@@ -27,14 +27,14 @@ class StreetAxis {
   virtual ~StreetAxis() = default;
 
   virtual double length() const = 0;      // [m]
-  virtual double half_width() const = 0;  // Of the carriageway [m].
+  virtual double half_width() const = 0;  // Of the roadway [m].
 
   // By ascending s.
   virtual const std::vector<SideStreet>& side_streets() const = 0;
 
   virtual double Heading(double s) const = 0;  // [rad]
 
-  // In the world.
+  // The point in the world.
   virtual Eigen::Vector3d SurfacePoint(double s, double d) const = 0;
 
   // Within `margin` [m] of a side street's edges.
@@ -48,13 +48,13 @@ class StreetAxis {
                        });
   }
 
-  // Origin on the ground, x along the street, z against gravity.
+  // Origin on the ground, x along the street, z opposite to gravity.
   Rigid3 WorldFromUpright(double s, double d) const {
     return {RotationZ(Heading(s)), SurfacePoint(s, d)};
   }
 
-  // Origin on the ground, z its normal over the footprint of a car, x along
-  // the street but for a turn by `yaw` [rad].
+  // Origin on the ground, z its normal over the footprint of a car, x along the
+  // street rotated by `yaw` [rad].
   Rigid3 WorldFromGround(double s, double d, double yaw) const {
     constexpr double kHalfBase = 1.35, kHalfTrack = 0.75;  // Of a car [m].
     const Eigen::Vector3d ahead =

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStorey = 2.9;  // [m]
-constexpr double kCellar = 5.0;  // How deep a house goes [m].
+constexpr double kCellar = 5.0;  // Depth of a house below ground [m].
 
 Rigid3 Shift(double x, double y, double z) {
   return {Eigen::Matrix3d::Identity(), Vector3d(x, y, z)};
@@ -82,7 +82,7 @@ void AddBalcony(
   patches.push_back({x - 0.5, x + width + 0.5, floor, floor + 0.95, out, 0.5f});
 }
 
-// One storey's openings, from left to right over a wall of that width.
+// The openings of one story, from left to right over a wall of the given width.
 void AddOpenings(double wall_width,
                  double floor,
                  bool is_ground_floor,
@@ -116,7 +116,7 @@ void AddOpenings(double wall_width,
 
 struct Walls {
   double height;  // [m]
-  double floor;   // Of the first storey [m].
+  double floor;   // Of the first story [m].
   float reflectance;
 };
 
@@ -143,7 +143,7 @@ void AddFacade(const Rigid3& world_from_facade,
     if (is_ground_floor) {
       patches.push_back({left, right, bottom, z + 0.3, plinth, shade});
     }
-    if (z + kStorey <= walls.height) {  // Else that is what the roof rests on.
+    if (z + kStorey <= walls.height) {  // Otherwise the roof rests here.
       AddOpenings(width, z, is_ground_floor, recess, random, patches);
     }
     const double top = std::min(z + kStorey, walls.height);

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What stands on a street, one object a call, its details drawn at random.
+// Objects in a street, one per call, with random details.
 //
-// A frame has its origin on the ground and z up. What faces the street does so
-// with +y, and x runs along its front, which is centred on the origin. All
-// objects reach below the ground, which need not be level.
+// A frame has its origin on the ground and z up. Objects that face the street
+// do so with +y; x runs along their front, which is centered on the origin. All
+// objects extend below the ground, which need not be level.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_STREET_OBJECTS_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_STREET_OBJECTS_H_
@@ -15,8 +15,9 @@
 
 namespace quatro {
 
-// A house of one to four storeys with windows, doors and the odd garage, bay
-// or balcony on its four sides; steps, a rain pipe and bins before it. [m]
+// A house of one to four stories with windows, doors and an occasional garage,
+// bay or balcony on its four sides; steps, a rain pipe and bins in front of it.
+// [m]
 void AddHouse(const Rigid3& world_from_house,
               double width,
               double depth,
@@ -29,7 +30,7 @@ void AddBush(const Rigid3& world_from_bush, Random& random, Scene& scene);
 
 void AddTree(const Rigid3& world_from_tree, Random& random, Scene& scene);
 
-// Drives along +x. [m]
+// The car faces +x. [m]
 void AddCar(const Rigid3& world_from_car,
             double length,
             Random& random,
@@ -46,7 +47,7 @@ struct Border {
 
 Border DrawBorder(Random& random);
 
-// The `index`-th piece, centred on the frame's origin.
+// The `index`-th piece, centered on the frame's origin.
 void AddBorderPiece(const Rigid3& world_from_piece,
                     const Border& border,
                     int index,

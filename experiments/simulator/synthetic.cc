@@ -19,7 +19,7 @@ class Draw {
     return low + (high - low) * random_.Uniform();
   }
 
-  // Standard normal, by Box and Muller.
+  // Standard normal, by Box-Muller.
   double Normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - random_.Uniform()));
     return radius * std::cos(2.0 * M_PI * random_.Uniform());
@@ -37,7 +37,8 @@ class Draw {
     return {x, y, Between(-4.0, 4.0)};
   }
 
-  // The attitude as one sees it who is off by `sigma` in each angle.
+  // The attitude measured with an error of standard deviation `sigma` per
+  // angle.
   Attitude Seen(const Attitude& attitude, double sigma) {
     const Eigen::Vector3d error = Noise(sigma);
     return {attitude.roll + error.x(),

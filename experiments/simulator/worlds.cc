@@ -27,7 +27,7 @@ constexpr std::pair<WorldKind, const char*> kNames[] = {
     {WorldKind::kHall, "hall"},
     {WorldKind::kSymmetric, "symmetric"}};
 
-// Street before the first place and after the last [m].
+// Length of street before the first place and after the last [m].
 constexpr double kMargin = 90.0;
 constexpr double kOnCar = Road::kSensorHeight;
 constexpr double kOnCart = 0.9;  // [m]
@@ -37,7 +37,7 @@ double Normal(Random& random) {
   return radius * std::cos(2.0 * M_PI * random.Uniform());
 }
 
-// On a level floor; roll and pitch by chance.
+// On a level floor, with random roll and pitch.
 Rigid3 OnFloor(const Vector2d& xy,
                double height,
                double yaw,
@@ -83,7 +83,7 @@ World MakeCrossingWorld(const WorldOptions& options, Random& random) {
                  turns ? "turned" : "passed",
                  "hdl64e"};
   if (turns) {
-    // At the asked distance by the theorem of Pythagoras.
+    // At the requested distance, by the Pythagorean theorem.
     const double side = random.Uniform() < 0.5 ? 1.0 : -1.0;
     const double away =
         std::sqrt(options.distance * options.distance - before * before);
@@ -130,7 +130,7 @@ std::string SensorOfCart(Random& random) {
   return random.Uniform() < 0.5 ? "vlp16" : "os1_64";
 }
 
-// Both on the floor, `options.distance` apart along x, about `middle`.
+// Both on the floor, `options.distance` apart along x, centered on `middle`.
 void PlaceAlongX(const WorldOptions& options,
                  double middle,
                  double max_y,
@@ -195,7 +195,7 @@ World MakeCorridorWorld(const WorldOptions& options, Random& random) {
   return world;
 }
 
-// Two points `distance` apart within +-half, the target within +-reach.
+// Two points `distance` apart within +-half, with the target within +-reach.
 std::pair<Vector2d, Vector2d> DrawPlaces(const Vector2d& half,
                                          const Vector2d& reach,
                                          double distance,
@@ -212,8 +212,8 @@ std::pair<Vector2d, Vector2d> DrawPlaces(const Vector2d& half,
   }
 }
 
-// What breaks the symmetry a little, within max_y of the x axis; in half of
-// the worlds, nothing.
+// Adds objects that slightly break the symmetry, within max_y of the x axis; in
+// half of the worlds, none.
 void AddOddThingsTo(double max_y, Random& random, World* world) {
   if (random.Uniform() < 0.5) return;
   const auto num_things = 1 + static_cast<int>(random.Below(4));
@@ -240,7 +240,7 @@ World MakeHallWorld(const WorldOptions& options,
   hall.height = Uniform(random, 3.0, 8.0);
   const Vector2d half =
       Vector2d(hall.length, hall.width) / 2.0 - Vector2d::Constant(kFromWall);
-  // Near the middle of a half turn the twin places are equally far away.
+  // Near the center of a half turn, the twin places are equally far away.
   const Vector2d reach = has_half_turn ? Vector2d(0.1 * half) : half;
   const auto [source, target] =
       DrawPlaces(half, reach, options.distance, random);
@@ -288,7 +288,7 @@ World MakeSymmetricWorld(const WorldOptions& options, Random& random) {
     odd_max_y = 15.0;
     world.scene =
         MakeColonnade(options.seed, Uniform(random, 2.3, 4.0), spacing);
-    // Between two rows.
+    // Between two rows of pillars.
     world.scene.Append(
         std::exchange(world.scene, {}),
         {Eigen::Matrix3d::Identity(), Vector3d(0.0, spacing.y() / 2.0, 0.0)});
@@ -311,8 +311,8 @@ World MakeSymmetricWorld(const WorldOptions& options, Random& random) {
               yaw,
               random,
               &world);
-  // The shift that brings the source closer to the target, where they see more
-  // of the same.
+  // Chooses the shift that brings the source closer to the target, where they
+  // see more of the same structure.
   const double ahead = (world.world_from_source.translation -
                         world.world_from_target.translation)
                            .x();

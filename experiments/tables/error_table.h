@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Errors by bin: of distance (Table III of the Quatro paper and its figure), of
-// the added yaw.
+// Errors by bin: bins of distance (Table III of the Quatro paper and its
+// figure) or of the added yaw.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_ERROR_TABLE_H_
 #define QUATRO_EXPERIMENTS_TABLES_ERROR_TABLE_H_
@@ -14,14 +14,14 @@
 
 namespace quatro {
 
-// Table III: columns method, origin, and of each bin t_avg and r_avg over all
-// answers, as the paper has them (metrics/registration_metrics.h); then the
-// paper's rows, if a bin has the name of one there.
+// Table III. Columns: method, origin, and for each bin t_avg and r_avg over all
+// answers, as in the paper (metrics/registration_metrics.h). The paper's rows
+// follow if a bin has the name of one of its bins.
 Table MakeErrorTable(const std::vector<PairResult>& results,
                      const TableOptions& options);
 
-// A row a method and bin: how many pairs, success at each limit, and averages
-// and medians of the errors over all answers and over the successes.
+// One row per method and bin: number of pairs, success at each limit, and
+// averages and medians of the errors over all answers and over the successes.
 Table MakeBinTable(const std::vector<PairResult>& results,
                    const TableOptions& options);
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::string_view kGroupMark = " / ";
 constexpr std::string_view kQuotedMark = "\\textdagger";
-// Of a table as it is, and of one that is as wide as a column of the page.
+// The number of columns up to which a table keeps its size, and up to which it
+// fits into one column of the page.
 constexpr std::size_t kFewColumns = 6;
 constexpr std::size_t kMostColumns = 8;
 constexpr std::string_view kFileMark = "\\textdaggerdbl";
@@ -32,7 +33,7 @@ std::string NameInGroup(const std::string& column) {
                                  : column.substr(at + kGroupMark.size());
 }
 
-// t_avg is t with an index.
+// Formats t_avg as t with a subscript.
 std::string Header(const std::string& name) {
   if (name.size() < 3 || name[1] != '_' || !IsLetter(name[0])) {
     return EscapeLatex(name);
@@ -43,8 +44,8 @@ std::string Header(const std::string& name) {
          "}}$" + EscapeLatex(name.substr(end));
 }
 
-// In two lines, broken at the blank closest to the middle that does not follow
-// a number.
+// Breaks a header into two lines at the space closest to the middle that does
+// not follow a number.
 std::string Stacked(const std::string& name) {
   std::size_t best = std::string::npos;
   const auto off = [&](std::size_t at) {
@@ -73,7 +74,7 @@ std::string Joined(const std::vector<std::string>& cells) {
   return line + " \\\\\n";
 }
 
-// The line of groups, and the rules under them. Columns count from 1.
+// The line of groups and the rules below it. Columns count from 1.
 std::string GroupLines(const std::vector<std::string>& columns) {
   std::vector<std::string> cells;
   std::string rules;
@@ -204,7 +205,7 @@ std::string FormatLatex(const Table& table, const LatexOptions& options) {
   }
   if (has_file) {
     latex += "\\par\\smallskip\\footnotesize " + std::string(kFileMark) +
-             "\\,From poses in a file, of another program.\n";
+             "\\,From a file of poses, written by another program.\n";
   }
   return latex + "\\end{" + place + "}\n";
 }

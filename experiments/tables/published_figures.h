@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What others have published, to stand beside what a run measures and never to
-// mix with it. All of it is on KITTI, by the authors' own programs.
+// Results published by others, shown next to the results of a run and never
+// mixed with them. All are on KITTI and from the authors' own programs.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_PUBLISHED_FIGURES_H_
 #define QUATRO_EXPERIMENTS_TABLES_PUBLISHED_FIGURES_H_
@@ -31,15 +31,15 @@ struct PublishedDrift {
   double rotation_deg_per_100m = 0.0;
 };
 
-// Of Lim et al., "A Single Correspondence Is Enough: Robust Global Registration
-// to Avoid Degeneracy in Urban Environments", ICRA 2022:
+// From Lim et al., "A Single Correspondence Is Enough: Robust Global
+// Registration to Avoid Degeneracy in Urban Environments", ICRA 2022:
 
 // Table I: success within 2 m and 10 deg, loop pairs 9-12 m apart; sets are the
 // sequences "00", "02", "05", "06", "07", "08".
 std::vector<PublishedRate> PublishedTableOne();
 
-// Table II: drift on 00 at frame intervals 1, 3, 5. LO-Net, DMLO and
-// StickyPillars are quoted there from their own papers.
+// Table II: drift on 00 at frame intervals 1, 3, 5. The paper quotes LO-Net,
+// DMLO and StickyPillars from their own papers.
 std::vector<PublishedDrift> PublishedTableTwo();
 
 // Table III: loop pairs on 06; bins are "0-2 m", "4-6 m" and "8-10 m".

@@ -26,7 +26,7 @@ std::vector<PairResult> OfTableThree(const std::vector<PairResult>& results) {
   return chosen;
 }
 
-// Nothing can be drawn evenly from two overlapping bins at once.
+// Two overlapping bins cannot be sampled evenly at the same time.
 std::vector<PairResult> OfTableOne(const std::vector<PairResult>& results) {
   const auto of_bin =
       SelectResults(results, std::nullopt, std::nullopt, "9-12 m");
@@ -34,7 +34,7 @@ std::vector<PairResult> OfTableOne(const std::vector<PairResult>& results) {
                         : of_bin;
 }
 
-// A set for each bin; none if the bins are others.
+// One set per bin; none if the bins differ.
 std::vector<PairResult> OfKittiLc(const std::vector<PairResult>& results) {
   auto bins = BinsOf(results);
   std::sort(bins.begin(), bins.end());
@@ -78,7 +78,7 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
       "Success [%], pairs 9-12 m apart, within " + options.limits[0].Name() +
           ".",
       [&](TableOptions o) {
-        // The paper's figures are within the paper's limit.
+        // The paper's values use the paper's limit.
         o.with_quoted =
             o.with_quoted && o.limits[0].Name() == UsualLimits()[0].Name();
         return MakeSuccessTable(near, o);
@@ -111,7 +111,7 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
       [&](const TableOptions& o) {
         return MakeSignificanceTable(once, reference, o);
       });
-  add("recall", "Recall [%] over the error allowed.", [&](const auto&) {
+  add("recall", "Recall [%] over the allowed error.", [&](const auto&) {
     return once.empty() ? Table{} : MakeRecallTable(once);
   });
   add("tilt", "Relative roll-pitch and yaw of the pairs.", [&](const auto&) {

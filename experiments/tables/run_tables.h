@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// All tables of a run, as files for its folder. Each is a function of the
-// results alone; only those of timing have times in them.
+// All tables of a run, as files in its folder. They depend only on the results;
+// only the timing tables contain times.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_RUN_TABLES_H_
 #define QUATRO_EXPERIMENTS_TABLES_RUN_TABLES_H_
@@ -16,9 +16,9 @@
 namespace quatro {
 
 struct RunTable {
-  std::string name;     // "table_one": of its files.
-  std::string caption;  // For people.
-  Table table;          // For print.
+  std::string name;     // "table_one", used for its files.
+  std::string caption;  // For readers.
+  Table table;          // For printing.
   Table with_intervals;
 };
 
@@ -27,24 +27,24 @@ struct TableFile {
   std::string text;
 };
 
-// Those with rows, of
+// The tables that have rows, among
 //
 //   table_one      success by set in the bin "9-12 m" or, without it, at true
 //                  distances of 9-12 m
 //   kitti_lc       success within 2 m and 5 deg by bin, if the bins are those
-//   of
-//                  the lists, 0-10, 10-20 and 20-30 m
+//                  of the lists, 0-10, 10-20 and 20-30 m
 //   table_three    t_avg and r_avg of set 06 at 0-2, 4-6 and 8-10 m
-//   summary        every metric by set; by_bin the same by bin
+//   summary        every metric by set; by_bin has the same by bin
 //   significance   quatro, or else the first method, against the others
 //   recall, tilt   for figures
 //   timing         medians by stage
 //
-// A pair of two bins counts once but in by_bin and table_three.
+// A pair in two bins counts once, except in by_bin and table_three.
 std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
                                     const TableOptions& options);
 
-// A CSV with intervals and LaTeX without of each; of figures the CSV alone.
+// For each table a CSV with intervals and LaTeX without them; for figures only
+// the CSV.
 std::vector<TableFile> FormatRunTables(const std::vector<RunTable>& tables);
 
 }  // namespace quatro

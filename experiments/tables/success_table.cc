@@ -11,7 +11,7 @@ namespace {
 
 constexpr char kAll[] = "all";
 
-// The rate alone: no averages, no bootstrap.
+// Adds only the rate, without averages and bootstrap.
 void AddSuccess(const std::vector<PairResult>& results,
                 const TableOptions& options,
                 std::vector<std::string>* row) {

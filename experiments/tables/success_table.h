@@ -15,10 +15,10 @@
 
 namespace quatro {
 
-// Columns method, origin, each set and, if there are several, "all" of their
-// pairs. A row a method for the first of options.limits, then one for each
-// method of `published` that has a figure of one of the columns. The paper's
-// pairs are 9-12 m apart: choose the results by SelectResults.
+// Columns: method, origin, each set and, if there are several, "all" for their
+// union. Rows: one per method for the first of options.limits, then one for
+// each method of `published` that has a value in one of the columns. The
+// paper's pairs are 9-12 m apart; select these results with SelectResults.
 Table MakeSuccessTable(
     const std::vector<PairResult>& results,
     const TableOptions& options,

@@ -61,7 +61,7 @@ void AddSummaryColumns(const TableOptions& options,
                                  "apart",
                                  "answers",
                                  "registered",
-                                 "wrong registered"}) {
+                                 "false registrations"}) {
     columns->push_back(name);
   }
   for (const SuccessLimit& limit : options.limits) {

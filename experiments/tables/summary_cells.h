@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// All metrics of a group of pairs as cells of a row.
+// All metrics of a group of pairs as the cells of a row.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_SUMMARY_CELLS_H_
 #define QUATRO_EXPERIMENTS_TABLES_SUMMARY_CELLS_H_
@@ -12,8 +12,8 @@
 
 namespace quatro {
 
-// Counts; success at each limit [%]; averages and medians over the successes,
-// then over all answers. Their names say so.
+// Counts, success at each limit [%], and averages and medians over the
+// successes and then over all answers, as the names say.
 void AddSummaryColumns(const TableOptions& options,
                        std::vector<std::string>* columns);
 void AddSummaryCells(const std::vector<PairResult>& results,

@@ -13,7 +13,7 @@
 namespace quatro {
 namespace {
 
-// Powers of ten below what four places show.
+// Uses powers of ten for values too small for four decimals.
 std::string PCell(double p) {
   char text[32];
   std::snprintf(text, sizeof(text), p < 0.001 ? "%.1e" : "%.4f", p);
@@ -51,8 +51,8 @@ Table MakeSignificanceTable(const std::vector<PairResult>& results,
   table.columns = {"method",
                    "against",
                    "pairs",
-                   "only method right",
-                   "only other right",
+                   "only method correct",
+                   "only other correct",
                    "success p",
                    "both answer",
                    "t difference m",

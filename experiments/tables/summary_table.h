@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Every metric of every method on any list of pairs, and which differences
-// between methods chance would not make.
+// Every metric of every method on any list of pairs, and the significance of
+// differences between methods.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_SUMMARY_TABLE_H_
 #define QUATRO_EXPERIMENTS_TABLES_SUMMARY_TABLE_H_
@@ -15,13 +15,14 @@
 
 namespace quatro {
 
-// A row a method and set, and one "all" of a method's sets if there are
-// several.
+// One row per method and set, and a row "all" per method if there are several
+// sets.
 Table MakeSummaryTable(const std::vector<PairResult>& results,
                        const TableOptions& options);
 
-// The method `reference` against each other one (metrics/paired_test.h) at the
-// first limit. p-values are not adjusted for how many there are.
+// Compares the method `reference` with each other method
+// (metrics/paired_test.h) at the first limit. p-values are not adjusted for
+// their number.
 Table MakeSignificanceTable(const std::vector<PairResult>& results,
                             const std::string& reference,
                             const TableOptions& options);

@@ -24,7 +24,7 @@ std::string FormatTable(const Table& table) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::string cell = row[i].empty() ? "-" : row[i];
       const std::string padding(width[i] - cell.size(), ' ');
-      // The first column holds names.
+      // The first column contains names.
       text += i == 0 ? cell + padding : "  " + padding + cell;
     }
     text += '\n';

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Rows of text under names, as what all protocols give. A column "A / B" is B
-// in a group A, which holds for columns beside each other. Of a column
-// "origin", "quoted" marks a row whose figures are another's (tables/latex.h).
-// An empty cell is not known or does not apply.
+// Rows of text under named columns, the output of all protocols. Column "A / B"
+// is column B in a group A of adjacent columns. In a column "origin", "quoted"
+// marks a row whose values come from others (tables/latex.h). An empty cell is
+// unknown or does not apply.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_TABLE_H_
 #define QUATRO_EXPERIMENTS_TABLES_TABLE_H_
@@ -18,7 +18,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-// Columns under each other, numbers to the right, "-" for empty cells.
+// Aligned columns, numbers to the right, "-" for empty cells.
 std::string FormatTable(const Table& table);
 
 std::string FormatCsv(const Table& table);

@@ -17,7 +17,7 @@ bool IsFrontEnd(const std::string& stage) {
   return stage == "voxels" || stage == "features" || stage == "matching";
 }
 
-// A new stage goes before the first known one that comes after it.
+// Inserts a new stage before the first known one that follows it.
 std::vector<std::string> StagesOf(const std::vector<PairResult>& results) {
   std::vector<std::string> stages;
   for (const PairResult& result : results) {
@@ -37,8 +37,8 @@ std::vector<std::string> StagesOf(const std::vector<PairResult>& results) {
   return stages;
 }
 
-// Median over the pairs of the summed stages that `is_chosen`; nullopt if no
-// pair has one.
+// Median over the pairs of the sum of the stages that satisfy `is_chosen`;
+// nullopt if no pair has such a stage.
 template <typename IsChosen>
 std::optional<double> MedianOf(const std::vector<PairResult>& results,
                                const IsChosen& is_chosen) {

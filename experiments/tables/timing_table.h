@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Where the time goes: medians over the pairs [ms]. No other table of results
-// has times, so all others are the same wherever the run was made.
+// Times by stage: medians over the pairs [ms]. No other table of results has
+// times, so all others do not depend on the machine.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_TIMING_TABLE_H_
 #define QUATRO_EXPERIMENTS_TABLES_TIMING_TABLE_H_
@@ -14,12 +14,12 @@
 
 namespace quatro {
 
-// A row a method, over its readable pairs: how many; with options.with_details
-// the median of each stage,
-// in the order in which methods go through them; of voxels, features and
-// matching together ("front end") and of the other stages ("rest"); and of the
-// whole, with its bootstrap interval. A stage that a pair did not get to counts
-// as 0 ms there, and one that no pair of a method has is an empty cell.
+// One row per method, over its readable pairs: the number of pairs; with
+// options.with_details the median of each stage, in the order of execution; the
+// medians of voxels, features and matching together ("front end") and of the
+// other stages ("rest"); and the median of the total with its bootstrap
+// interval. A stage that a pair did not reach counts as 0 ms; a stage that no
+// pair of a method has is an empty cell.
 Table MakeTimingTable(const std::vector<PairResult>& results,
                       const TableOptions& options);
 

@@ -10,8 +10,8 @@
     if answer.is_registered:
         moved = scan @ answer.target_from_source[:3, :3].T + answer.target_from_source[:3, 3]
 
-Metres, radians and seconds throughout. register() is for clouds, solve() for
-matched points of your own, align() for a pose that is nearly right already.
+Units are meters, radians and seconds. Use register() for clouds, solve() for your own
+matched points, and align() to refine a pose that is nearly correct.
 """
 
 from ._quatro import (  # noqa: F401

@@ -125,9 +125,9 @@ def test_local_alignment_refuses():
             ((SOURCE, TARGET, 'icp', np.eye(3)),
              'initial_target_from_source has shape (3, 3), must be (4, 4)'),
             ((SOURCE, TARGET, 'icp', 2 * np.eye(4)),
-             'initial_target_from_source is no rigid motion'),
+             'initial_target_from_source is not a rigid motion'),
             ((SOURCE, TARGET, 'icp', np.diag([1, 1, -1, 1])),
-             'initial_target_from_source is no rigid motion')]:
+             'initial_target_from_source is not a rigid motion')]:
         with pytest.raises(ValueError) as error:
             quatro.align(*arguments)
         assert str(error.value) == text

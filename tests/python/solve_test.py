@@ -124,7 +124,7 @@ def test_matches_that_are_not_finite_are_refused(method, bad):
      'ins.target_attitude must be finite'),
     ('quatro', {'source_rpy': (0, 0, 0)}, 'source_rpy is given, but ins_mode is none'),
     ('arc_consensus', {'ins_mode': 'leveled', 'source_rpy': (0, 0, 0)},
-     'target_rpy is missing, ins_mode needs it'),
+     'target_rpy is missing, but ins_mode needs it'),
     ('quatro', {'ins_mode': 'full'},
      'ins_mode = "full", must be one of none, relative, leveled, fused'),
     ('quatro', {'seed': -1}, 'seed = -1, must be from 0 to 18446744073709551615'),

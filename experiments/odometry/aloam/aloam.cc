@@ -15,10 +15,10 @@
 namespace quatro {
 namespace {
 
-// Of either kind; fewer are no scan.
+// The minimum number of edge and plane features; a scan with fewer is unusable.
 constexpr Eigen::Index kMinFeatures = 10;
 
-// A round that ends where it began; the next would do the same.
+// A round that does not move the pose; the next round would not move it either.
 bool IsStill(const Rigid3& move) {
   return move.translation.norm() <= 1e-4 &&
          AngleBetween(move.rotation, Eigen::Matrix3d::Identity()) <= 1e-5;
@@ -26,7 +26,7 @@ bool IsStill(const Rigid3& move) {
 
 Points Sample(const Points& points, double voxel_size) {
   std::string error;
-  // Can't fail: the features are within 10 km.
+  // Cannot fail, because the features are within 10 km.
   return SampleVoxels(points, voxel_size, &error).value_or(Points(3, 0));
 }
 
@@ -38,7 +38,7 @@ bool AloamOptions::IsValid(std::string* error) const {
   if (num_rounds < 1 || start_rounds < num_rounds) {
     problem << "num_rounds = " << num_rounds
             << ", start_rounds = " << start_rounds
-            << ", must be >= 1 and the second no less";
+            << ", must be >= 1 and start_rounds >= num_rounds";
   } else if (!(max_scan_distance > 0.0 && max_map_distance > 0.0)) {
     problem << "max_scan_distance = " << max_scan_distance
             << ", max_map_distance = " << max_map_distance << ", must be > 0";
@@ -68,17 +68,17 @@ std::optional<RingFeatures> Aloam::FindFeatures(const PointCloud& scan,
                                                 std::string* message) const {
   const ScanRings rings = EstimateScanRings(scan.points);
   if (rings.source == RingSource::kNone) {
-    *message = "the rings of the scan can't be told";
+    *message = "the rings of the scan cannot be identified";
     return std::nullopt;
   }
   RingFeatures features =
       FindRingFeatures(scan.points, rings, options_.features);
   if (features.less_sharp.points.cols() < kMinFeatures ||
       features.less_flat.points.cols() < kMinFeatures) {
-    *message = "the scan has " +
-               std::to_string(features.less_sharp.points.cols()) +
-               " edge and " + std::to_string(features.less_flat.points.cols()) +
-               " plane points, must have " + std::to_string(kMinFeatures);
+    *message =
+        "the scan has " + std::to_string(features.less_sharp.points.cols()) +
+        " edge and " + std::to_string(features.less_flat.points.cols()) +
+        " plane points, must have at least " + std::to_string(kMinFeatures);
     return std::nullopt;
   }
   return features;

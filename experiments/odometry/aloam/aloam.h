@@ -1,24 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Odometry like A-LOAM's: edges and planes of each scan (features/
-// ring_features.h), aligned by
-// experiments/odometry/aloam/line_plane_alignment.h
+// Odometry similar to A-LOAM. Extracts edges and planes of each scan
+// (ring_features.h) and aligns them by line_plane_alignment.h
 //
-//   1. to the scan before it, from the guess of constant velocity,
-//   2. to the map of all before it, from 1,
+//   1. to the previous scan, starting from the constant-velocity guess,
+//   2. to the map of all previous scans, starting from the result of 1.
 //
-// each time with matches found anew num_rounds times, or until nothing moves.
-// Where there is no velocity yet the second scan may be metres ahead: step 1
-// then has start_rounds. The map keeps one point a voxel of either kind around
-// the sensor.
+// Both steps find new matches num_rounds times, or until the pose stops moving.
+// Before there is a velocity, the second scan may be meters ahead, so step 1
+// then has start_rounds. The map keeps one point per voxel and feature kind
+// around the sensor.
 //
-// Unlike A-LOAM, step 2 is done for every scan and its pose feeds the next
-// guess; the map is one grid around the sensor in place of cubes of 50 m;
-// hidden points are rejected (LOAM's rule, which A-LOAM leaves out); a pose
-// that the matches do not hold is refused; A-LOAM starts with two rounds as
-// well. Scans are not corrected for motion.
+// Differences from A-LOAM: step 2 runs for every scan, and its pose feeds the
+// next guess. The map is one grid around the sensor instead of cubes of 50 m.
+// Hidden points are rejected (LOAM's rule, which A-LOAM omits). A pose that the
+// matches do not constrain is rejected. A-LOAM starts with two rounds as well.
+// Scans are not corrected for motion.
 //
-// A scan whose rings can't be told is lost.
+// A scan whose rings cannot be identified is lost.
 //
 // Source: Zhang and Singh, "LOAM: Lidar Odometry and Mapping in Real-time", RSS
 // 2014.
@@ -43,13 +42,13 @@ struct AloamOptions {
   int num_rounds = 2;
   int start_rounds = 100;
 
-  double max_scan_distance = 5.0;  // Of matches to the scan before [m].
-  double max_map_distance = 1.0;   // And of the fifth neighbor in the map [m].
+  double max_scan_distance = 5.0;  // Of matches to the previous scan [m].
+  double max_map_distance = 1.0;   // Of the fifth neighbor in the map [m].
   double edge_voxel = 0.4;         // Of the map [m].
   double plane_voxel = 0.8;        // [m]
   double map_radius = 100.0;       // [m]
 
-  int num_threads = 1;  // 0: all cores. Never changes the answer.
+  int num_threads = 1;  // 0: all cores. Does not affect the result.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -65,7 +64,8 @@ class Aloam : public Odometry {
   TrackResult Track(const PointCloud& scan,
                     const Rigid3& world_from_scan_guess) override;
 
-  // Nullopt, with the reason in *message, if there are too few of either kind.
+  // Returns nullopt, with the reason in *message, if there are too few edge or
+  // plane features.
   std::optional<RingFeatures> FindFeatures(const PointCloud& scan,
                                            std::string* message) const;
   LinePlaneSummary AlignToScan(const RingFeatures& features,

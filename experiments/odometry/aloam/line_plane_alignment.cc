@@ -15,7 +15,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Least eigenvalue of H over the largest, at a pose.
+// The smallest eigenvalue of H over the largest, at a pose.
 double Conditioning(const std::vector<SurfaceMatch>& lines,
                     const std::vector<SurfaceMatch>& planes,
                     const Rigid3& pose) {
@@ -87,7 +87,8 @@ LinePlaneSummary AlignToLinesAndPlanes(const std::vector<SurfaceMatch>& lines,
   if (!(summary.conditioning >= options.min_conditioning &&
         summary.conditioning > 0.0)) {
     std::ostringstream text;
-    text << "the matches do not hold all six freedoms (conditioning "
+    text << "the matches do not constrain all six degrees of freedom "
+            "(conditioning "
          << summary.conditioning << ")";
     summary.message = text.str();
     return summary;
@@ -111,7 +112,7 @@ LinePlaneSummary AlignToLinesAndPlanes(const std::vector<SurfaceMatch>& lines,
     add(new PlaneResidual::CostFunction(new PlaneResidual{match}));
   }
   ceres::Solver::Options ceres_options;
-  // Thousands of residuals of six freedoms.
+  // Thousands of residuals, but only six degrees of freedom.
   ceres_options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   ceres_options.max_num_iterations = options.max_num_iterations;
   ceres_options.num_threads = 1;
@@ -125,7 +126,7 @@ LinePlaneSummary AlignToLinesAndPlanes(const std::vector<SurfaceMatch>& lines,
   }
   summary.target_from_source =
       Rigid3{rotation.normalized().toRotationMatrix(), translation};
-  // Ceres halves the squares.
+  // Ceres minimizes half the sum of squares.
   summary.cost = 2.0 * solved.final_cost;
   summary.message = "aligned";
   return summary;

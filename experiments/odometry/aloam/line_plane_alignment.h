@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The pose that brings points onto given lines and planes,
+// The pose that aligns points with given lines and planes,
 //
 //   R, t = argmin  sum_lines rho(|d x (R p + t - a)|^2)
 //                + sum_planes rho((n . (R p + t - a))^2),                  (1)
 //
-// rho that of Huber, by Ceres on the quaternion manifold. Matches are held: the
-// caller finds them again at the pose that comes out.
+// with Huber's rho, solved by Ceres on the quaternion manifold. Matches are
+// fixed; the caller updates them at the new pose.
 //
-// No answer where the matches do not hold all six freedoms: with H the Hessian
-// of (1) without rho, turns scaled by the points' root mean square distance
-// from their middle, its least eigenvalue is below min_conditioning of the
-// largest. Planes of one direction (open ground) or two (a straight tunnel) are
-// such.
+// There is no answer if the matches do not constrain all six degrees of
+// freedom. Let H be the Hessian of (1) without rho, with rotations scaled by
+// the root mean square distance of the points from their centroid. The matches
+// are degenerate if the smallest eigenvalue of H is below min_conditioning
+// times the largest. Examples are planes of one direction (open ground) or two
+// (a straight tunnel).
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_ALOAM_LINE_PLANE_ALIGNMENT_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_ALOAM_LINE_PLANE_ALIGNMENT_H_
@@ -27,7 +28,7 @@
 
 namespace quatro {
 
-// The loss and the end of the search.
+// The loss and the stopping criteria.
 struct LinePlaneOptions {
   double huber_width = 0.1;  // [m]
   int max_num_iterations = 4;
@@ -37,16 +38,16 @@ struct LinePlaneOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The pose, or why there is none.
+// The pose, or the reason why there is none.
 struct LinePlaneSummary {
   std::optional<Rigid3> target_from_source;
   std::string message = "nothing was tried";
 
   double cost = 0.0;          // (1) at the end [m^2].
-  double conditioning = 0.0;  // Least eigenvalue of H over the largest.
+  double conditioning = 0.0;  // Smallest eigenvalue of H over largest.
 };
 
-// Both kinds of matches together must be finite.
+// The matches of both kinds must be finite.
 LinePlaneSummary AlignToLinesAndPlanes(const std::vector<SurfaceMatch>& lines,
                                        const std::vector<SurfaceMatch>& planes,
                                        const Rigid3& initial_target_from_source,

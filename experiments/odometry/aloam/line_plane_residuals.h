@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Distances of a moved point from a line and from a plane, for Ceres. With R a
-// unit quaternion in Eigen's order and t the translation,
+// Residuals for Ceres: distances of a transformed point from a line and from a
+// plane. With the unit quaternion R in Eigen's order and the translation t,
 //
 //   line   r = d x (R p + t - a),    |r| the distance,   |d| = 1,           (1)
 //   plane  r = n . (R p + t - a),    signed,             |n| = 1.           (2)
@@ -19,15 +19,15 @@
 
 namespace quatro {
 
-// A point and what it should be on: a point of the line or plane, and the unit
-// direction of the line or unit normal of the plane.
+// A point and the line or plane on which it should be: a point of that line or
+// plane, and the unit direction of the line or unit normal of the plane.
 struct SurfaceMatch {
   Eigen::Vector3d source;     // p [m]
   Eigen::Vector3d point;      // a [m]
   Eigen::Vector3d direction;  // d or n
 };
 
-// A point's distance from a line, as a vector.
+// The distance of a point from a line, as a vector.
 struct LineResidual {
   using CostFunction =
       ceres::AutoDiffCostFunction<LineResidual, 3, Turn::kSize, 3>;
@@ -45,7 +45,7 @@ struct LineResidual {
   SurfaceMatch match;
 };
 
-// A point's signed distance from a plane.
+// The signed distance of a point from a plane.
 struct PlaneResidual {
   using CostFunction =
       ceres::AutoDiffCostFunction<PlaneResidual, 1, Turn::kSize, 3>;

@@ -17,10 +17,10 @@ namespace {
 
 constexpr Eigen::Index kHalfWindow = 5;
 
-// Neighbors in a row closer than this to each other are passed over [m^2].
+// Consecutive neighbors closer than this to each other are skipped [m^2].
 constexpr double kCloseSquared = 0.05;
 
-// Gathers points of one kind.
+// Collects points of one kind.
 class Collector {
  public:
   void Add(const Eigen::Vector3d& point, int ring) {
@@ -43,7 +43,7 @@ struct Collectors {
   Collector sharp, less_sharp, flat, less_flat;
 };
 
-// Points of a ring that are far enough.
+// The points of a ring that are far enough from the sensor.
 Points TakeRing(const PointsRef& points,
                 const std::vector<Eigen::Index>& ring,
                 double min_range) {
@@ -59,7 +59,7 @@ double SquaredStep(const Points& p, Eigen::Index i) {
   return (p.col(i + 1) - p.col(i)).squaredNorm();
 }
 
-// Which points may not be chosen for what is next to them.
+// The points that must not be chosen because of their neighbors.
 std::vector<bool> FindHidden(const Points& p,
                              const RingFeatureOptions& options) {
   const Eigen::Index n = p.cols();
@@ -88,7 +88,7 @@ std::vector<bool> FindHidden(const Points& p,
   return hidden;
 }
 
-// Equation (1); zero at the ends, which are never chosen.
+// Equation (1); zero at the ends of the ring, which are never chosen.
 std::vector<double> ComputeCurvature(const Points& p) {
   std::vector<double> curvature(static_cast<std::size_t>(p.cols()), 0.0);
   for (Eigen::Index i = kHalfWindow; i + kHalfWindow < p.cols(); ++i) {
@@ -100,7 +100,7 @@ std::vector<double> ComputeCurvature(const Points& p) {
   return curvature;
 }
 
-// Marks what is in a row with `i`, without a gap.
+// Marks the neighbors of `i` along the ring, up to the first gap.
 void MarkNeighbors(const Points& p, Eigen::Index i, std::vector<bool>* taken) {
   (*taken)[static_cast<std::size_t>(i)] = true;
   for (Eigen::Index j = i; j < std::min(p.cols() - 1, i + kHalfWindow); ++j) {
@@ -172,7 +172,7 @@ void ChooseFromRing(const Points& p,
   std::string error;
   const std::optional<Points> sampled =
       SampleVoxels(rest.leftCols(num_rest), options.less_flat_voxel, &error);
-  if (!sampled) return;  // Wider than the grid: no scan.
+  if (!sampled) return;  // Wider than the grid: unusable.
   for (const auto& point : sampled->colwise()) {
     chosen->less_flat.Add(point, ring);
   }
@@ -188,7 +188,7 @@ bool RingFeatureOptions::IsValid(std::string* error) const {
     problem << "max_sharp = " << max_sharp
             << ", max_less_sharp = " << max_less_sharp
             << ", max_flat = " << max_flat
-            << ", must be >= 0 and the first no more than the second";
+            << ", must be >= 0 and max_sharp <= max_less_sharp";
   } else if (!(edge_curvature > 0.0)) {
     problem << "edge_curvature = " << edge_curvature << ", must be > 0";
   } else if (!(less_flat_voxel > 0.0 && std::isfinite(less_flat_voxel))) {

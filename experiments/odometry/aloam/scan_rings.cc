@@ -18,23 +18,23 @@ constexpr double kDegree = M_PI / 180.0;
 constexpr int kMinNumRings = 4;
 constexpr int kMaxNumRings = 256;
 
-// Order: the azimuth may fall back by this before it counts as a new turn (the
-// lasers are not in one place: what is a metre away is seen 8 deg off), and
-// this share of the steps must go forward by so much at most.
+// Order: the azimuth may decrease by kMaxBack before a new ring starts. The
+// lasers are at different places, so a point a meter away appears 8 deg off. At
+// least kMinForwardShare of the steps must go forward by at most kMaxStep.
 constexpr double kMaxBack = 15.0 * kDegree;
 constexpr double kMaxStep = 5.0 * kDegree;
 constexpr double kMinForwardShare = 0.85;
 
-// Elevation: bins of the histogram, the least part of the largest maximum that
-// counts, and the share of points that must be near a beam, at most this part
-// of the way to the next.
+// Elevation: the bin width of the histogram, the smallest maximum that counts
+// as a fraction of the largest, and the share of points that must be near a
+// beam, within kMaxOffset of the distance to the next beam.
 constexpr double kBin = 0.02 * kDegree;
 constexpr double kMinPeak = 0.02;
 constexpr double kMaxOffset = 0.25;
 constexpr double kMinNearShare = 0.9;
 
 struct Directions {
-  Ring index;  // Of the points that have a direction.
+  Ring index;  // Points that have a direction.
   std::vector<double> azimuth, elevation;
 };
 
@@ -50,13 +50,15 @@ Directions ComputeDirections(const PointsRef& points) {
   return directions;
 }
 
-// Angle of the turn so far, in [0, 2 pi), where the sensor turns to `sense`.
+// The angle swept since azimuth 0, in [0, 2 pi), for rotation direction
+// `sense`.
 double Phase(double azimuth, double sense) {
   const double phase = sense * azimuth;
   return phase < 0.0 ? phase + 2.0 * M_PI : phase;
 }
 
-// Positions in `directions`, ring by ring; empty if the order tells nothing.
+// Positions in `directions`, ring by ring; empty if the order is not
+// informative.
 std::vector<Ring> RingsByOrder(const Directions& directions) {
   const std::size_t n = directions.index.size();
   std::size_t num_left = 0;
@@ -69,7 +71,7 @@ std::vector<Ring> RingsByOrder(const Directions& directions) {
   const double sense = 2 * num_left >= n ? 1.0 : -1.0;
   std::vector<Ring> rings;
   std::size_t num_forward = 0;
-  double before = 7.0;  // More than any.
+  double before = 7.0;  // Larger than any phase.
   for (std::size_t i = 0; i < n; ++i) {
     const double phase = Phase(directions.azimuth[i], sense);
     const double step = phase - before;
@@ -88,7 +90,7 @@ std::vector<Ring> RingsByOrder(const Directions& directions) {
 // Elevations of the beams, ascending.
 std::vector<double> FindBeams(const std::vector<double>& elevation) {
   const double lowest = *std::min_element(elevation.begin(), elevation.end());
-  // Two bins at either end for the window.
+  // Two extra bins at either end for the window.
   std::vector<double> raw(static_cast<std::size_t>(M_PI / kBin) + 5, 0.0);
   for (const double e : elevation) {
     raw[static_cast<std::size_t>((e - lowest) / kBin) + 2] += 1.0;

@@ -13,11 +13,11 @@
 namespace quatro {
 namespace {
 
-// Rings up and down that are beside one.
+// Rings up and down that count as neighboring.
 constexpr int kBeside = 2;
 
-// Points closer than this [m] make no line; with a smaller sine than this they
-// make no plane.
+// Points closer than this [m] do not form a line. If the sine of their angle is
+// smaller than kMinSine, they do not form a plane.
 constexpr double kMinBaseline = 0.01;
 constexpr double kMinSine = 0.05;
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What the features of a scan should be on, by the scan before it:
+// Matches the features of a scan with the previous scan:
 //
-//   sharp  the line through the nearest edge point and the nearest one of
-//          another ring beside it;
-//   flat   the plane through the nearest plane point, the next on its ring and
-//          the nearest on another ring beside it.
+//   sharp  the line through the nearest edge point and the nearest edge point
+//          of another ring beside it;
+//   flat   the plane through the nearest plane point, the next one on its ring
+//          and the nearest one on another ring beside it.
 //
 // Source: Zhang and Singh, RSS 2014, Section V.B.
 
@@ -24,16 +24,16 @@
 
 namespace quatro {
 
-// Nearest points by ring.
+// Nearest-point search by ring.
 class RingTrees {
  public:
   explicit RingTrees(const RingPoints& points);
 
-  // The nearest within `max_distance` [m], or -1.
+  // The nearest point within `max_distance` [m], or -1.
   Eigen::Index Nearest(const Eigen::Vector3d& query, double max_distance) const;
 
-  // The same on the ring of point `of` alone and without it; or on the two
-  // rings above and the two below.
+  // The nearest other point on the ring of point `of`; or the nearest point on
+  // the two rings above and the two below.
   Eigen::Index NearestOnRing(const Eigen::Vector3d& query,
                              Eigen::Index of,
                              double max_distance) const;
@@ -46,7 +46,7 @@ class RingTrees {
  private:
   struct Ring {
     KdTree tree;
-    std::vector<Eigen::Index> index;  // Of its points among all.
+    std::vector<Eigen::Index> index;  // Of its points in points_.
   };
 
   RingPoints points_;
@@ -54,7 +54,7 @@ class RingTrees {
   std::vector<std::optional<Ring>> rings_;
 };
 
-// A scan that later ones are matched to.
+// A scan to which later scans are matched.
 struct ScanModel {
   explicit ScanModel(const RingFeatures& features)
       : edges(features.less_sharp), planes(features.less_flat) {}
@@ -66,7 +66,7 @@ struct SurfaceMatches {
   std::vector<SurfaceMatch> lines, planes;
 };
 
-// In the frame of the model. Matches farther than `max_distance` [m] are none.
+// Matches in the frame of the model, up to `max_distance` [m].
 SurfaceMatches MatchToScan(const RingFeatures& features,
                            const ScanModel& model,
                            const Rigid3& model_from_scan,

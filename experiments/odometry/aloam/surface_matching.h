@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Matches of many points found side by side, in the points' order.
+// Matches many points in parallel. The results are in the order of the points.
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_ALOAM_SURFACE_MATCHING_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_ALOAM_SURFACE_MATCHING_H_
@@ -16,8 +16,8 @@
 
 namespace quatro {
 
-// `match` turns a point into a std::optional<SurfaceMatch> and may be called
-// from several threads.
+// `match` maps a point to a std::optional<SurfaceMatch>. It may be called from
+// several threads.
 template <typename Match>
 std::vector<SurfaceMatch> CollectMatches(const PointsRef& points,
                                          int num_threads,

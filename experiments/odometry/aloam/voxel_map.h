@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The points of many scans, one a voxel: the mean of those that fell into it.
-// Voxels far from the sensor are forgotten.
+// The points of many scans, one per voxel: the mean of the points in it. Voxels
+// far from the sensor are removed.
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_ALOAM_VOXEL_MAP_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_ALOAM_VOXEL_MAP_H_
@@ -23,7 +23,7 @@ class VoxelMap {
   // Points in the frame of the map, within 1e9 voxels of its origin.
   void Insert(const PointsRef& points);
 
-  // Forgets voxels whose mean is farther than `radius` [m] from `center`.
+  // Removes voxels whose mean is farther than `radius` [m] from `center`.
   void Crop(const Eigen::Vector3d& center, double radius);
 
   // In the order of the voxels' indices.

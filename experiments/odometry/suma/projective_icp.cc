@@ -109,7 +109,7 @@ ProjectiveIcpSummary AlignProjectively(const VertexMap& scan,
     summary.num_matches = equations.num_matches;
     if (equations.num_matches < options.min_num_matches) {
       summary.message = std::to_string(equations.num_matches) +
-                        " points have a partner, must be " +
+                        " points have a match, must be at least " +
                         std::to_string(options.min_num_matches);
       return summary;
     }
@@ -118,7 +118,8 @@ ProjectiveIcpSummary AlignProjectively(const VertexMap& scan,
     summary.conditioning = Conditioning(equations);
     if (!(summary.conditioning >= options.min_conditioning)) {
       std::ostringstream text;
-      text << "the model does not hold all six freedoms (conditioning "
+      text << "the model does not constrain all six degrees of freedom "
+              "(conditioning "
            << summary.conditioning << ")";
       summary.message = text.str();
       return summary;

@@ -10,7 +10,8 @@
 namespace quatro {
 namespace {
 
-// Of a first scan; with fewer nothing could be tracked later.
+// The minimum for the first scan; with fewer surfels nothing can be tracked
+// later.
 constexpr std::size_t kMinSurfels = 100;
 
 }  // namespace
@@ -52,7 +53,7 @@ TrackResult Suma::Start(const PointCloud& scan) {
   if (map.surfels().size() < kMinSurfels) {
     return {std::nullopt,
             "the scan makes " + std::to_string(map.surfels().size()) +
-                " surfels, must make " + std::to_string(kMinSurfels)};
+                " surfels, must make at least " + std::to_string(kMinSurfels)};
   }
   image_ = *image;
   map_ = map;

@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Odometry like SuMa's, without its closing of loops: the scan as an image
-// (experiments/odometry/suma/vertex_map.h) onto what the map of surfels
-// (surfel_map.h) would look like from the guess, by
-// experiments/odometry/suma/projective_icp.h; then the scan is taken into the
-// map.
+// Odometry similar to SuMa, without loop closure. Each scan, as an image
+// (experiments/odometry/suma/vertex_map.h), is aligned by
+// experiments/odometry/suma/projective_icp.h with the surfel map (surfel_map.h)
+// rendered from the guess. The scan is then added to the map.
 //
-// Where there is no velocity yet the second scan may be metres ahead of the
-// guess: partners are then sought start_distance away, and start_rounds times
-// the map is drawn anew from where the last round ended, the distance falling
-// evenly to that of icp.
+// Before there is a velocity, the second scan may be meters ahead of the guess.
+// Matches are then searched within start_distance, and the map is rendered
+// again start_rounds times from the last pose, while the distance decreases
+// linearly to that of icp.
 //
-// The image's rows span the elevations of the first scan: no beam need be
-// known.
+// The rows of the image span the elevations of the first scan, so the beams
+// need not be known.
 //
 // Source: Behley and Stachniss, "Efficient Surfel-Based SLAM using 3D Laser
 // Range Data in Urban Environments", RSS 2018.
@@ -30,15 +29,15 @@
 namespace quatro {
 
 struct SumaOptions {
-  int width = 720;  // Of the image [pixels].
+  int width = 720;  // Image size [pixels].
   int height = 64;
-  double min_range = 3.0;  // Nearer points are the car's own [m].
+  double min_range = 3.0;  // Nearer points are the vehicle's own [m].
   ProjectiveIcpOptions icp;
   int start_rounds = 20;
   double start_distance = 6.0;  // [m]
   SurfelMapOptions map;
 
-  int num_threads = 1;  // 0: all cores. Never changes the answer.
+  int num_threads = 1;  // 0: all cores. Does not affect the result.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

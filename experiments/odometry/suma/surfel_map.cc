@@ -13,10 +13,10 @@
 namespace quatro {
 namespace {
 
-// Disks that are no farther apart than this along a ray are of one surface [m].
+// Disks no farther apart than this along a ray are on one surface [m].
 constexpr double kSameSurface = 0.1;
 
-// Pixels from the middle of a disk to the edge that is drawn, at most.
+// The maximum number of pixels from the center of a disk to its drawn edge.
 constexpr int kMaxReach = 4;
 
 double LogOdds(double probability) {
@@ -34,7 +34,7 @@ double SurfelRadius(const Eigen::Vector3d& vertex,
   return std::sqrt(2.0) * range * pixel / cosine;
 }
 
-// Through the middle of each pixel.
+// Rays through the centers of all pixels.
 Points RaysOf(const SphericalImage& image) {
   Points rays(3, image.size());
   for (int v = 0; v < image.height; ++v) {
@@ -45,8 +45,9 @@ Points RaysOf(const SphericalImage& image) {
   return rays;
 }
 
-// Whether `vertex`, `offset` from the middle of its disk, is to replace what is
-// in the pixel: of one surface the disk around it, else the nearer.
+// Whether `vertex`, at `offset` from the center of its disk, replaces the
+// content of the pixel. On the same surface the smaller offset wins, otherwise
+// the nearer vertex.
 bool IsBefore(const Eigen::Vector3d& vertex,
               double offset,
               const Eigen::Vector3d& there,
@@ -56,7 +57,8 @@ bool IsBefore(const Eigen::Vector3d& vertex,
   return behind < 0.0;
 }
 
-// `offsets` by pixel: of what is drawn, from the middle of its disk [m].
+// `offsets` by pixel: distance of the drawn point from the center of its disk
+// [m].
 void Draw(std::int32_t index,
           const Eigen::Vector3d& position,
           const Eigen::Vector3d& normal,
@@ -90,7 +92,7 @@ void Draw(std::int32_t index,
                        : position;
       if ((vertex - position).squaredNorm() > radius * radius) {
         if (pixel != middle) continue;
-        vertex = position;  // Never less than a pixel.
+        vertex = position;  // At least one pixel.
       }
       const double offset = (vertex - position).norm();
       double& offset_there = (*offsets)[static_cast<std::size_t>(pixel)];
@@ -150,7 +152,7 @@ RenderedMap SurfelMap::Render(const SphericalImage& image,
     const Surfel& surfel = surfels_[i];
     const Eigen::Vector3d position = sensor_from_map * surfel.position;
     const Eigen::Vector3d normal = sensor_from_map.rotation * surfel.normal;
-    // The back of a surface is not what is seen.
+    // The back of a surface is not visible.
     if (!(normal.dot(position) < 0.0)) continue;
     Draw(static_cast<std::int32_t>(i),
          position,
@@ -187,7 +189,7 @@ void SurfelMap::Update(const VertexMap& scan, const Rigid3& map_from_sensor) {
         const double a = std::acos(cosine) / options_.sigma_angle;
         const double d = distance / options_.sigma_distance;
         surfel.log_odds += LogOdds(options_.stable * std::exp(-a * a - d * d));
-        // Along the normal: sideways the disk stays where it is.
+        // Moves the disk along its normal only, not sideways.
         surfel.position += options_.blend * distance * surfel.normal;
         surfel.normal =
             ((1.0 - options_.blend) * surfel.normal + options_.blend * normal)

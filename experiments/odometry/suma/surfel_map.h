@@ -1,23 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A map of disks. A surfel is a point, a normal, a radius and how well it is
-// confirmed, as log odds l. Of a measured vertex v with normal n the radius is
+// A map of disks. A surfel is a point, a normal, a radius and a confidence as
+// log odds l. A measured vertex v with normal n has the radius
 //
 //   r = sqrt(2) |v| s / clamp(|n . v| / |v|, 1/2, 1),   s a pixel [rad], (1)
 //
-// and one that agrees with a surfel at distance d along its normal, turned by
-// a, adds
+// A measurement consistent with a surfel at distance d along its normal, with
+// angle a between the normals, adds
 //
 //   odds(p exp(-a^2 / sigma_a^2) exp(-d^2 / sigma_d^2)),
 //   odds(x) = log(x / (1 - x));                                            (2)
 //
-// one that does not takes odds(p) away and starts a surfel of its own, at zero.
-// Surfels that are not above zero are forgotten once they have had time to be
-// confirmed, and so are those not seen for long or far away.
+// an inconsistent one subtracts odds(p) and starts a new surfel with log odds
+// zero. Surfels are removed if their log odds are not positive after the time
+// for confirmation, if they have not been seen for long, or if they are far
+// away.
 //
 // Source: SuMa (see experiments/odometry/suma/vertex_map.h), Section III.D.
-// Unlike there, disks are drawn by the CPU, pixel by pixel, and there are no
-// submaps, as there is no closing of loops.
+// Unlike SuMa, disks are drawn by the CPU, pixel by pixel. There are no submaps
+// because there is no loop closure.
 
 #ifndef QUATRO_EXPERIMENTS_ODOMETRY_SUMA_SURFEL_MAP_H_
 #define QUATRO_EXPERIMENTS_ODOMETRY_SUMA_SURFEL_MAP_H_
@@ -33,9 +34,9 @@
 namespace quatro {
 
 struct SurfelMapOptions {
-  double max_distance = 0.3;    // Along the normal, to agree [m].
-  double max_angle = 0.52;      // [rad]
-  double blend = 0.1;           // Of a measurement into a surfel.
+  double max_distance = 0.3;    // Along the normal [m].
+  double max_angle = 0.52;      // Between the normals [rad].
+  double blend = 0.1;           // Weight of a new measurement.
   double stable = 0.65;         // p
   double sigma_angle = 0.5;     // [rad]
   double sigma_distance = 0.3;  // [m]
@@ -52,14 +53,14 @@ struct Surfel {
   Eigen::Vector3d normal;    // Unit.
   double radius = 0.0;       // [m]
   double log_odds = 0.0;
-  int created = 0;  // The scan.
-  int seen = 0;     // The last scan that agreed.
+  int created = 0;  // Index of the scan.
+  int seen = 0;     // The last consistent scan.
 };
 
-// What the sensor would see of the map.
+// The map as seen from the sensor.
 struct RenderedMap {
   VertexMap view;                     // In the sensor's frame.
-  std::vector<std::int32_t> surfels;  // By pixel; -1 for none.
+  std::vector<std::int32_t> surfels;  // Per pixel; -1: none.
 };
 
 class SurfelMap {
@@ -70,7 +71,7 @@ class SurfelMap {
   RenderedMap Render(const SphericalImage& image,
                      const Rigid3& map_from_sensor) const;
 
-  // Takes a scan in; scans are counted.
+  // Adds a scan to the map and increments the scan counter.
   void Update(const VertexMap& scan, const Rigid3& map_from_sensor);
 
   const std::vector<Surfel>& surfels() const { return surfels_; }

@@ -18,14 +18,15 @@ constexpr int kHalfWidth = 2;
 constexpr int kHalfHeight = 1;
 constexpr int kMinNeighbors = 6;
 
-// Neighbors whose range differs by more are another surface [m, m/m].
+// Neighbors whose ranges differ by more belong to another surface [m, m/m].
 constexpr double kMaxStep = 0.2;
 constexpr double kMaxRelativeStep = 0.1;
 
-// A window whose spread across is less than this part of that along is a line.
+// A window is a line if its spread across is less than this fraction of its
+// spread along.
 constexpr double kMinSpread = 1e-3;
 
-// The normal at (u, v), or zero.
+// Returns the normal at (u, v), or zero.
 Eigen::Vector3d NormalAt(const VertexMap& map, int u, int v) {
   const SphericalImage& image = map.image;
   const Eigen::Vector3d middle =
@@ -67,7 +68,7 @@ Eigen::Index SphericalImage::Project(const Eigen::Vector3d& point) const {
   if (!(planar > 0.0)) return -1;
   const double azimuth = std::atan2(point.y(), point.x());
   const double elevation = std::atan2(point.z(), planar);
-  // The back of the sensor is either edge.
+  // The left and right edges of the image both point backward.
   const int u = std::clamp(
       static_cast<int>(width * (0.5 - azimuth / (2.0 * M_PI))), 0, width - 1);
   const double row = std::floor(height * (top - elevation) / (top - bottom));
@@ -90,7 +91,7 @@ bool SphericalImage::IsValid(std::string* error) const {
             << ", must be in [16, 8192], [4, 1024]";
   } else if (!(top > bottom && top <= 0.5 * M_PI && bottom >= -0.5 * M_PI)) {
     problem << "top, bottom = " << top << ", " << bottom
-            << ", must be in [-pi/2, pi/2] and the first above the second";
+            << ", must be in [-pi/2, pi/2] and top > bottom";
   }
   *error = problem.str();
   return error->empty();
@@ -113,7 +114,7 @@ std::optional<SphericalImage> FitImage(const PointsRef& points,
   SphericalImage image;
   image.width = width;
   image.height = height;
-  // The outermost beams in the middle of their rows.
+  // The outermost beams are at the centers of their rows.
   const double half_row = 0.5 * (top - bottom) / (height - 1);
   image.top = std::min(0.5 * M_PI, top + half_row);
   image.bottom = std::max(-0.5 * M_PI, bottom - half_row);

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A scan as an image: one point a pixel, and the surface's normal there. With
-// azimuth a and elevation e of a point (x, y, z) in the sensor's frame,
+// A scan as an image, with one point and one surface normal per pixel. With
+// azimuth a and elevation e of a point (x, y, z) in the sensor frame,
 //
 //   u = width  (1/2 - a / 2 pi),          a = atan2(y, x),                 (1)
 //   v = height (top - e) / (top - bottom),  e = atan2(z, hypot(x, y)),
 //
-// it belongs to pixel (floor u, floor v). Of several the nearest is kept.
+// the point belongs to pixel (floor u, floor v). If several points fall into a
+// pixel, the nearest is kept.
 //
-// Normals are those of least spread of the pixels in a window of 5 x 3 whose
-// range is like the middle's, turned to the sensor. A difference of two
-// neighbors, as in SuMa, would be lost in the noise: pixels are 0.1 m apart at
-// 10 m, and ranges 0.02 m off.
+// A normal is the direction of smallest spread of the pixels in a 5 x 3 window
+// whose range is similar to that of the center pixel, oriented toward the
+// sensor. The difference of two neighbors, as in SuMa, would be dominated by
+// noise: pixels are 0.1 m apart at 10 m, and the range noise is 0.02 m.
 //
 // Source: Behley and Stachniss, "Efficient Surfel-Based SLAM using 3D Laser
 // Range Data in Urban Environments" (SuMa), RSS 2018, Section III.A.
@@ -28,58 +29,58 @@
 
 namespace quatro {
 
-// Where a point falls in the image, by (1).
+// Maps points to pixels by (1).
 struct SphericalImage {
   int width = 720;
   int height = 64;
   double top = 0.05;      // Elevation of the upper edge [rad].
-  double bottom = -0.43;  // Of the lower edge [rad].
+  double bottom = -0.43;  // Elevation of the lower edge [rad].
 
-  // Pixels.
+  // The number of pixels.
   Eigen::Index size() const { return Eigen::Index{width} * height; }
 
-  // Of one pixel in azimuth.
+  // The azimuth width of a pixel.
   double PixelWidth() const { return 2.0 * M_PI / width; }  // [rad]
 
-  // Of one pixel in elevation.
+  // The elevation height of a pixel.
   double PixelHeight() const { return (top - bottom) / height; }  // [rad]
 
-  // Equation (1). The index v width + u, or -1 outside the image and for the
-  // sensor's own place.
+  // Equation (1). Returns the index v width + u, or -1 outside the image and
+  // for a point at the sensor.
   Eigen::Index Project(const Eigen::Vector3d& point) const;
 
-  // Unit vector through the middle of pixel (u, v).
+  // The unit vector through the center of pixel (u, v).
   Eigen::Vector3d Ray(int u, int v) const;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// Edges so that the elevations of a scan, but for the outermost thousandth,
-// are within the image. Nullopt if all points have one elevation, or there are
-// none.
+// Chooses top and bottom so that the image contains the elevations of a scan,
+// except for the outermost thousandth. Returns nullopt if all points have one
+// elevation, or if there are no points.
 std::optional<SphericalImage> FitImage(const PointsRef& points,
                                        int width,
                                        int height);
 
-// A scan by pixels: points, and normals where they are known.
+// A scan by pixels: points, and normals where known.
 struct VertexMap {
   SphericalImage image;
-  Points vertices;  // By pixel [m]; zero where there is none.
-  Points normals;   // Unit, towards the sensor; zero where there is none.
+  Points vertices;  // Per pixel [m]; zero: no point.
+  Points normals;   // Unit, toward the sensor; zero: no normal.
 
-  // Whether anything was seen there.
+  // Returns whether the pixel has a point.
   bool HasVertex(Eigen::Index pixel) const {
     return !vertices.col(pixel).isZero(0.0);
   }
 
-  // Whether the surface there is known.
+  // Returns whether the pixel has a normal.
   bool HasNormal(Eigen::Index pixel) const {
     return !normals.col(pixel).isZero(0.0);
   }
 };
 
-// Of `points` in the sensor's frame; those nearer than `min_range` [m] are left
+// `points` are in the sensor frame; points nearer than `min_range` [m] are left
 // out.
 VertexMap MakeVertexMap(const PointsRef& points,
                         const SphericalImage& image,

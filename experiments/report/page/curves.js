@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Recall over the error that is allowed, a line a method. The pointer, or the
-// arrow keys, tell every method's value there.
+// Recall over the allowed error, with a line per method. The pointer or the
+// arrow keys show the value of every method at a position.
 
 import {el, svg} from './dom.js';
 
@@ -12,7 +12,8 @@ const RIGHT = 12;
 const TOP = 12;
 const BOTTOM = 40;
 
-// Of eight, then again with dashes: told apart without colours too.
+// Eight colors, then again with dashes, so that lines are distinct without
+// colors too.
 export function lineStyle(index) {
   return {color: `var(--line-${index % 8})`, dash: ['', '7 3', '2 3'][Math.floor(index / 8) % 3]};
 }
@@ -28,7 +29,7 @@ export function recallCurve({title, unit, grid, methods, marks}) {
   const x = (value) => LEFT + (WIDTH - LEFT - RIGHT) * value / last;
   const y = (value) => HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * value / 100;
   const plot = svg('svg', {viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: 'curve', tabindex: 0, role: 'img',
-                           'aria-label': `${title}: recall over the error allowed`});
+                           'aria-label': `${title}: recall over the allowed error`});
   for (let value = 0; value <= 100; value += 20) {
     plot.append(svg('line', {x1: x(0), x2: x(last), y1: y(value), y2: y(value), class: 'grid'}),
                 svg('text', {x: LEFT - 6, y: y(value) + 4, class: 'end'}, String(value)));
@@ -41,7 +42,7 @@ export function recallCurve({title, unit, grid, methods, marks}) {
   for (const mark of marks.filter((value) => value <= last)) {
     plot.append(svg('line', {x1: x(mark), x2: x(mark), y1: y(0), y2: y(100), class: 'mark'}));
   }
-  plot.append(svg('text', {x: x(last / 2), y: HEIGHT - 4, class: 'middle'}, `${title} allowed [${unit}]`));
+  plot.append(svg('text', {x: x(last / 2), y: HEIGHT - 4, class: 'middle'}, `allowed ${title} [${unit}]`));
   methods.forEach((method, index) => {
     const points = method.recall.map((value, i) => `${x(grid[i]).toFixed(1)},${y(value).toFixed(1)}`);
     const style = lineStyle(index);

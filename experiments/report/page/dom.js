@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Elements from code. What comes from data is always text, never HTML.
+// Creates elements. Data is always inserted as text, never as HTML.
 
 const SVG = 'http://www.w3.org/2000/svg';
 
@@ -25,7 +25,7 @@ export function svg(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
-// The value of a colour of report.css, such as '--kept'.
+// The value of a color of report.css, such as '--kept'.
 export function color(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

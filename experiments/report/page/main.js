@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The page from its data.
+// Builds the page from its data.
 
 import {recallCurves} from './curves.js';
 import {el} from './dom.js';
@@ -25,7 +25,7 @@ function header(data) {
   }
   const flags = Object.entries({...data.manifest.flags, ...data.manifest.other_flags})
       .filter(([, value]) => value !== '');
-  const theme = el('button', {class: 'theme', title: 'light or dark', onclick: switchTheme}, '◐');
+  const theme = el('button', {class: 'theme', title: 'Switch between light and dark', onclick: switchTheme}, '◐');
   return el('header', {}, theme, el('h1', {}, data.title), el('p', {class: 'facts'}, parts.join(' · ')),
             el('details', {class: 'flags', open: flags.length <= MAX_OPEN_FLAGS}, el('summary', {}, 'parameters'),
                flags.map(([name, value]) => el('code', {}, `${name}=${value}`))),
@@ -36,7 +36,7 @@ function tables(data) {
   const table = (name) => data.tables.find((candidate) => candidate.name === name);
   const parts = [];
   if (table('summary')) parts.push(section('Summary', mainSummary(table('summary')),
-      el('p', {class: 'hint'}, 'Small figures: 95 % intervals, Wilson’s of shares, bootstrap of averages and medians.')));
+      el('p', {class: 'hint'}, 'Small numbers: 95 % intervals (Wilson for shares, bootstrap for averages and medians).')));
   if (table('recall')) {
     parts.push(section('Recall', el('div', {class: 'pair-of-figures'}, recallCurves(table('recall'), data.limits))));
   }
@@ -75,8 +75,8 @@ function pairs(data) {
   }
 
   const isAlone = Object.keys(data.views).length === 1 && rows.length <= 1;
-  const hint = Object.keys(data.views).length === 0 ? 'No pair kept a 3D view.'
-      : 'A click opens a pair marked ◆ in 3D. Names of columns sort.';
+  const hint = Object.keys(data.views).length === 0 ? 'No pair has a 3D view.'
+      : 'Click a pair marked ◆ to open it in 3D. Click a column name to sort.';
   const element = section(isAlone ? 'Pair' : 'Pairs', panel.element, isAlone ? '' : [el('p', {class: 'hint'}, hint), table.element]);
   return {element, openFirst: () => { if (isAlone) open(rows[0]); }};
 }

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What becomes of a match, stage by stage:
+// The fate of a match, stage by stage:
 //
 //   1  all          every match
 //   2  clique       kept: in the consistent set
-//   3  GNC          of these, by the weight that the rotation gave them
-//   4  translation  kept: agrees with the pose; regained: agrees, though the
-//                   clique had left it out
+//   3  GNC          consistent matches by their weight in the rotation
+//   4  translation  kept: inliers of the pose; regained: inliers that are not
+//                   in the clique
 
 import {INLIER, CONSISTENT} from './view_data.js';
 
@@ -17,7 +17,7 @@ export const STAGES = [
   {key: 4, name: 'after translation', count: 'inliers'},
 ];
 
-// Whether the method has such a stage.
+// Returns whether the method has this stage.
 export function hasStage(stages, stage) {
   if (!stages) return false;
   if (stage === 2) return stages.counts.consistent > 0;
@@ -25,8 +25,8 @@ export function hasStage(stages, stage) {
   return true;
 }
 
-// {role, weight} of match i: 'all', 'kept', 'regained', 'rejected' (at this
-// stage), 'gone' (before it).
+// Returns {role, weight} of match i. The role is 'all', 'kept', 'regained',
+// 'rejected' (at this stage), or 'gone' (rejected earlier).
 export function roleOf(stages, stage, i) {
   const isConsistent = (stages.fate[i] & CONSISTENT) !== 0;
   const isAgreeing = (stages.fate[i] & INLIER) !== 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// From one pose to another, by the shorter turn, so that one sees what moved.
+// Animates the motion from one pose to another, with the shorter rotation.
 
 import {Matrix4, Quaternion, Vector3} from 'three';
 
@@ -11,7 +11,7 @@ export function matrixOf(rows, lift) {
 }
 
 export class Motion {
-  // apply(matrix) is called with each pose on the way and the last.
+  // apply(matrix) is called with each intermediate pose and the last one.
   constructor(apply) {
     this.apply = apply;
     this.now = new Matrix4();

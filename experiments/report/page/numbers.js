@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Numbers as people read them.
+// Formats numbers for people.
 
 export function fixed(value, digits) {
   return value === null || value === undefined ? '–' : value.toFixed(digits);

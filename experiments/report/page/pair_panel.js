@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The pair that is open: its 3D view, and what each method made of it. A pair's
-// data is decoded when it is opened.
+// The open pair: its 3D view, and the result of each method. The data of a pair
+// is decoded when it is opened.
 
 import {el} from './dom.js';
 import {count, fixed, percent} from './numbers.js';
@@ -19,8 +19,8 @@ function matrixText(rows) {
 }
 
 function facts(row, view, method) {
-  const list = [['source', view.files[0]], ['target', view.files[1]], ['verdict', row.status], ['why', method.reason]];
-  if (row.probability !== null) list.push(['probability of success', fixed(row.probability, 3)]);
+  const list = [['source', view.files[0]], ['target', view.files[1]], ['verdict', row.status], ['reason', method.reason]];
+  if (row.probability !== null) list.push(['probability of a correct pose', fixed(row.probability, 3)]);
   if (row.t_m !== null) list.push(['error', `${fixed(row.t_m, 3)} m, ${fixed(row.r_deg, 2)} deg`]);
   if (row.distance_m !== null) list.push(['true distance', `${fixed(row.distance_m, 2)} m`]);
   if (row.ms !== null) list.push(['time', `${fixed(row.ms, 1)} ms`]);
@@ -33,12 +33,12 @@ function stageTable(stages) {
   const rows = STAGES.filter(({key}) => hasStage(stages, key)).map(({name, count: key}) =>
       el('tr', {}, el('td', {}, name), number(count(counts[key])),
          right ? number(percent(right[key], counts[key])) : null));
-  const heads = ['stage', 'matches', ...(right ? ['of these right'] : [])];
+  const heads = ['stage', 'matches', ...(right ? ['correct'] : [])];
   return el('table', {class: 'plain'}, el('thead', {}, el('tr', {}, heads.map((name) => el('th', {}, name)))),
             el('tbody', {}, rows));
 }
 
-// [name, value] as a table of two columns.
+// Shows [name, value] entries as a table of two columns.
 function valueTable(title, entries) {
   if (entries.length === 0) return null;
   return el('details', {}, el('summary', {}, title), sortableTable(
@@ -49,7 +49,7 @@ function valueTable(title, entries) {
 }
 
 export class PairPanel {
-  // rowOf(pair, method) is the row of the table of pairs.
+  // rowOf(pair, method) returns the row in the table of pairs.
   constructor(rowOf, onopen) {
     this.rowOf = rowOf;
     this.onopen = onopen;
@@ -79,7 +79,7 @@ export class PairPanel {
         method.pose ? el('details', {open: true}, el('summary', {}, 'target from source'),
                          el('pre', {}, matrixText(method.pose))) : '',
         valueTable('times [ms]', row.stages ?? []) ?? '',
-        valueTable('what the probability comes from', Object.entries(method.features)) ?? '',
-        valueTable('notes of the stages', method.notes) ?? '');
+        valueTable('features of the probability', Object.entries(method.features)) ?? '',
+        valueTable('notes by stage', method.notes) ?? '');
   }
 }

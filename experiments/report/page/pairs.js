@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A row a pair and method: sorted, filtered, and opened in 3D.
+// A row per pair and method, which can be sorted, filtered, and opened in 3D.
 
 import {el} from './dom.js';
 import {fixed} from './numbers.js';
 import {sortableTable} from './sortable_table.js';
 
-// Rows as objects; `succeeded` is null without truth.
+// Rows as objects; `succeeded` is null if there is no true pose.
 export function pairRows(data) {
   const limit = data.limits[0];
   return data.pairs.rows.map((cells) => {
@@ -21,7 +21,7 @@ export function pairRows(data) {
 
 function select(name, values, onchange) {
   const element = el('select', {'aria-label': name, onchange},
-                     el('option', {value: ''}, `every ${name}`),
+                     el('option', {value: ''}, `any ${name}`),
                      values.map((value) => el('option', {value}, value)));
   return element;
 }
@@ -33,12 +33,12 @@ function columnsOf(rows, hasView) {
       ({name, title, isNumber: true, value: (row) => row[key], text: (row) => fixed(row[key], digits)});
   const text = (name, key) => ({name, value: (row) => row[key]});
   const columns = [
-    {name: '3D', title: 'kept for the 3D view', value: (row) => hasView(row) ? 0 : 1,
+    {name: '3D', title: 'has a 3D view', value: (row) => hasView(row) ? 0 : 1,
      text: (row) => hasView(row) ? '◆' : ' '},
     text('pair', 'pair'), text('set', 'set'), text('bin', 'bin'), text('method', 'method'), text('status', 'status'),
     number('t error\nm', 't_m', 3), number('r error\ndeg', 'r_deg', 2),
-    number('distance\nm', 'distance_m', 1, 'of the true pose'),
-    number('probability', 'probability', 2, 'of being right, as the verdict has it'),
+    number('distance\nm', 'distance_m', 1, 'translation of the true pose'),
+    number('probability', 'probability', 2, 'that the pose is correct, by the verdict'),
     number('matches', 'matches', 0), number('clique', 'consistent', 0), number('inliers', 'inliers', 0),
     number('total\nms', 'ms', 1),
   ];
@@ -46,7 +46,8 @@ function columnsOf(rows, hasView) {
   return columns.filter(({name}) => !key[name] || distinct(rows, key[name]).length > 1);
 }
 
-// open(row) is called for a row with a view; hasView(row) tells which.
+// open(row) is called for a row with a view; hasView(row) returns whether a row
+// has one.
 export function pairTable(rows, hasView, open) {
   const table = sortableTable(columnsOf(rows, hasView), rows, {
     onopen: (row) => { if (hasView(row)) open(row); },
@@ -56,7 +57,7 @@ export function pairTable(rows, hasView, open) {
   const shown = el('span', {class: 'shown'});
   const name = el('input', {type: 'search', placeholder: 'pair', 'aria-label': 'name of the pair', oninput: refilter});
   const outcome = el('select', {'aria-label': 'outcome', onchange: refilter},
-                     [['', 'every outcome'], ['failed', 'failed'], ['wrong', 'registered, yet wrong'],
+                     [['', 'all outcomes'], ['failed', 'failed'], ['wrong', 'false registration'],
                       ['succeeded', 'succeeded'], ['view', 'with a 3D view']]
                          .map(([value, text]) => el('option', {value}, text)));
   const choices = ['method', 'set', 'bin', 'status']

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The tables of a run (experiments/tables/run_tables.h). "x", "x low" and
-// "x high" become one column, "x" with its 95 % interval.
+// The tables of a run (experiments/tables/run_tables.h). "x", "x low" and "x
+// high" become one column, "x" with its 95 % interval.
 
 import {el} from './dom.js';
 import {sortableTable} from './sortable_table.js';
 
-// Text that is a number, as one.
+// Converts text that is a number to a number.
 function parse(text) {
   return text !== '' && Number.isFinite(Number(text)) ? Number(text) : text;
 }
 
-// "success % / 2 m 10 deg" in two lines.
+// Splits "success % / 2 m 10 deg" into two lines.
 function shortName(name) {
   return name.replace(' / ', '\n');
 }
@@ -44,12 +44,12 @@ export function runTable(table) {
   return sortableTable(columnsOf(table), table.rows).element;
 }
 
-// Of the table "summary" what most people look for: a row a method, of all
-// sets, and few of the columns.
+// The main columns of the table "summary", with one row per method over all
+// sets.
 export function mainSummary(table) {
   const set = table.columns.indexOf('set');
   const hasAll = table.rows.some((row) => row[set] === 'all');
-  const isWanted = (name) => /^(method|pairs|answers|registered|wrong registered)$/.test(name) ||
+  const isWanted = (name) => /^(method|pairs|answers|registered|false registrations)$/.test(name) ||
       /^success % |^successes \/ (t|r) median/.test(name);
   const kept = table.columns.map((name, i) => i)
       .filter((i) => isWanted(table.columns[i].replace(/ (low|high)$/, '')));

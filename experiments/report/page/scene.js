@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Two clouds and the lines between their matched points, in three dimensions.
-// Drawn when something changes, not all the time.
+// Two clouds and the lines between their matched points in 3D. Drawn only after
+// a change.
 
 import {BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineSegments, Matrix4, PerspectiveCamera, Points,
         PointsMaterial, Scene, Vector3, WebGLRenderer} from 'three';
@@ -10,9 +10,9 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {color} from './dom.js';
 
 const FEW_POINTS = 8000;  // Drawn larger.
-const HEAD_ROOM = 0.2;  // For a source above the target, of its radius.
+const HEAD_ROOM = 0.2;  // For a source above the target, relative to the radius.
 
-// The middle 90 % of each axis: {center, radius}.
+// The central 90 % of each axis: {center, radius}.
 function extent(xyz) {
   const bounds = [0, 1, 2].map((axis) => {
     const values = xyz.filter((_, i) => i % 3 === axis).sort();
@@ -24,7 +24,7 @@ function extent(xyz) {
   return {center, radius: Math.max(radius, 1)};
 }
 
-// Brighter with height, which makes the ground a ground.
+// Brightness increases with height, so that the ground is recognizable.
 function shades(xyz, base) {
   const heights = xyz.filter((_, i) => i % 3 === 2).sort();
   const low = heights[Math.floor(0.02 * heights.length)] ?? 0;
@@ -63,7 +63,7 @@ export class PairScene {
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 
-  // Of view_data.js.
+  // `pair` comes from view_data.js.
   setPair(pair) {
     this.pair = pair;
     this.extent = extent(pair.target.xyz);
@@ -84,7 +84,7 @@ export class PairScene {
     }
   }
 
-  // From where: 'aslant' or 'above'.
+  // `from` is the viewpoint: 'aslant' or 'above'.
   look(from) {
     const {center, radius} = this.extent;
     const direction = from === 'above' ? new Vector3(0, -0.001, 1) : new Vector3(-0.55, -0.75, 0.62).normalize();
@@ -95,7 +95,7 @@ export class PairScene {
     this.draw();
   }
 
-  // The lines: matches by number, each with a colour and an opacity.
+  // The lines: matches by number, each with a color and an opacity.
   setMatches(matches) {
     this.matches = matches;
     const positions = new BufferAttribute(new Float32Array(6 * matches.length), 3);
@@ -108,7 +108,7 @@ export class PairScene {
     this.moveLines();
   }
 
-  // `pose`: a Matrix4 for the source, of which only the view knows the lift.
+  // `pose` is a Matrix4 for the source, including the lift of the view.
   setPose(pose) {
     this.pose.copy(pose);
     this.source.matrix.copy(pose);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A table whose columns sort by a click on their names: numbers by size, empty
-// cells last either way. Long tables are shown a part at a time.
+// A table that is sorted by clicking a column name: numbers by value, empty
+// cells last in either direction. Long tables are shown in parts.
 
 import {el} from './dom.js';
 
@@ -18,7 +18,7 @@ function isEmpty(value) {
 
 // columns: {name, value(row) to sort by, text(row) or node(row) to show,
 //           isNumber, title}
-// onopen(row) makes the rows buttons; mark(row) is a class of theirs.
+// onopen(row) makes the rows clickable; mark(row) returns their class.
 export function sortableTable(columns, allRows, {onopen, mark, caption} = {}) {
   let rows = allRows.slice();
   let sortedBy = null;
@@ -49,7 +49,7 @@ export function sortableTable(columns, allRows, {onopen, mark, caption} = {}) {
   function show() {
     body.replaceChildren(...rows.slice(0, numShown).map(line));
     more.hidden = rows.length <= numShown;
-    more.textContent = `more: ${numShown} of ${rows.length} are shown`;
+    more.textContent = `show more (${numShown} of ${rows.length})`;
   }
 
   function sort() {
@@ -81,9 +81,9 @@ export function sortableTable(columns, allRows, {onopen, mark, caption} = {}) {
   const element = el('div', {class: 'table'}, table, more);
   return {
     element,
-    // The rows as they are sorted now.
+    // The rows in the current order.
     rows: () => rows,
-    // Shows those for which keep(row) is true.
+    // Shows the rows for which keep(row) is true.
     filter(keep) {
       rows = allRows.filter(keep);
       numShown = PART;

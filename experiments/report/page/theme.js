@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Light or dark: as the system has it, until the reader says otherwise.
+// Light or dark, as in the system settings until the reader switches.
 
 const root = document.documentElement;
 const system = matchMedia('(prefers-color-scheme: dark)');

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What experiments/report/pair_view.h wrote of a pair, decoded. Everything is
-// drawn about the target's origin, so that coordinates of maps keep their
-// digits as single floats.
+// Decodes the data of a pair from experiments/report/pair_view.h. Everything is
+// drawn relative to the target's origin, so that map coordinates keep their
+// digits in single precision.
 
 function decodeBytes(base64) {
   const text = atob(base64);
@@ -11,7 +11,7 @@ function decodeBytes(base64) {
   return bytes;
 }
 
-// Three columns of int16, times the step [m]; without the origin.
+// Three columns of int16, times the step [m], without the origin.
 function decodePoints(base64, step) {
   const bytes = decodeBytes(base64);
   const view = new DataView(bytes.buffer);
@@ -45,8 +45,8 @@ export function decodeView(view) {
 
 const IDENTITY = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]];
 
-// A pose for points of the source without its origin, to the target's: 3 x 4 in
-// rows. No pose: as the scans were taken.
+// The pose from source points without their origin to target points without
+// theirs, as 3 x 4 rows. Without a pose, the clouds stay as scanned.
 export function drawnPose(view, pose) {
   const rows = pose ?? IDENTITY;
   return [0, 1, 2].map((i) => {

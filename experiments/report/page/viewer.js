@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One pair in 3D with its buttons and keys: before and after, stage by stage.
+// One pair in 3D with buttons and keys: before and after, stage by stage.
 
 import {Color} from 'three';
 
@@ -12,18 +12,18 @@ import {PairScene} from './scene.js';
 import {onTheme} from './theme.js';
 import {drawnPose} from './view_data.js';
 
-const LIFT = 0.45;  // Of the source above the target, of the view's radius.
+const LIFT = 0.45;  // Of the source above the target, relative to the radius.
 
 const ROLES = {
   all: {color: '--match', opacity: 0.5, text: 'match'},
   kept: {color: '--kept', opacity: 0.8, text: 'kept'},
-  regained: {color: '--regained', opacity: 0.9, text: 'regained: agrees with the pose, not in the clique'},
+  regained: {color: '--regained', opacity: 0.9, text: 'regained: inlier of the pose, not in the clique'},
   rejected: {color: '--rejected', opacity: 0.22, text: 'rejected here'},
 };
 
 export class Viewer {
   constructor() {
-    this.canvas = el('canvas', {tabindex: 0, 'aria-label': '3D view of the pair; drag to turn'});
+    this.canvas = el('canvas', {tabindex: 0, 'aria-label': '3D view of the pair; drag to rotate'});
     this.state = {pose: 'before', stage: 1, lifted: true, rejected: true};
     this.poseButtons = ['before', 'after', 'truth'].map((name) =>
         el('button', {'data-pose': name, onclick: () => this.set({pose: name})}, name));
@@ -33,23 +33,23 @@ export class Viewer {
       const input = el('input', {type: 'checkbox', onchange: () => this.set({[name]: input.checked})});
       return el('label', {title: name}, input, text);
     };
-    this.boxes = {lifted: box('lifted', 'lift the source'), rejected: box('rejected', 'rejected, too')};
+    this.boxes = {lifted: box('lifted', 'lift the source'), rejected: box('rejected', 'show rejected')};
     this.legend = el('div', {class: 'legend'});
     this.element = el('div', {class: 'viewer'},
         el('div', {class: 'buttons'},
            el('span', {class: 'group'}, this.poseButtons),
            el('span', {class: 'group'}, this.stageButtons),
-           el('span', {class: 'group'}, el('button', {onclick: () => this.scene.look('aslant')}, 'aslant'),
-              el('button', {onclick: () => this.scene.look('above')}, 'from above')),
+           el('span', {class: 'group'}, el('button', {onclick: () => this.scene.look('oblique')}, 'aslant'),
+              el('button', {onclick: () => this.scene.look('above')}, 'top')),
            this.boxes.lifted, this.boxes.rejected),
         this.canvas, this.legend,
-        el('p', {class: 'keys'}, 'Drag to turn, wheel to zoom, right button to move. Keys: 1–4 stages, space before ' +
-           'and after, L lift, R rejected, T from above.'));
+        el('p', {class: 'keys'}, 'Drag to rotate, wheel to zoom, right button to pan. Keys: 1–4 stages, space before ' +
+           'or after, L lift, R rejected, T top view.'));
     this.element.addEventListener('keydown', (event) => this.key(event));
     onTheme(() => this.scene && (this.scene.recolor(), this.showMatches()));
   }
 
-  // `pair` of view_data.js, one of its methods.
+  // `pair` comes from view_data.js, `method` is one of its methods.
   open(pair, method) {
     const isOther = this.pair !== pair;
     this.pair = pair;
@@ -66,12 +66,12 @@ export class Viewer {
     this.motion.jump(this.matrix());
   }
 
-  // Whether there can be a view.
+  // Returns whether a 3D view is available.
   start() {
     try {
       this.scene = new PairScene(this.canvas);
     } catch {
-      this.element.replaceChildren(el('p', {class: 'note'}, 'This browser has no WebGL, hence no 3D view.'));
+      this.element.replaceChildren(el('p', {class: 'note'}, 'This browser has no WebGL, so there is no 3D view.'));
       return false;
     }
     this.motion = new Motion((matrix) => this.scene.setPose(matrix));
@@ -158,12 +158,12 @@ export class Viewer {
     if (stages) {
       const {count: name} = STAGES[this.state.stage - 1];
       const number = stages.counts[name];
-      const right = stages.right ? `, ${percent(stages.right[name], number)} right` : '';
-      const what = {weighted: 'of weight 0.5 or more', consistent: 'in the clique', matches: 'in all',
+      const right = stages.right ? `, ${percent(stages.right[name], number)} correct` : '';
+      const what = {weighted: 'with weight 0.5 or more', consistent: 'in the clique', matches: 'matches in total',
                     inliers: 'inliers of the pose'}[name];
       items.push(el('strong', {}, `${count(number)} ${what}${right}`), ` (${count(numDrawn)} lines)`);
     } else {
-      items.push('This method has no matches, or others than those of the list’s first.');
+      items.push('This method has no matches, or other matches than the first method.');
     }
     this.legend.replaceChildren(...items);
   }

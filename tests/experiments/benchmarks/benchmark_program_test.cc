@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// quatro_benchmark from outside. Times themselves are nobody's to test.
+// Runs quatro_benchmark as a program. The times themselves are not tested.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ using ::testing::IsSupersetOf;
 
 class BenchmarkProgramTest : public ProgramTest {
  protected:
-  // The benchmarks that fit, as written to a file.
+  // The benchmarks that match, as written to a file.
   json Run(const std::string& filter, std::vector<std::string> flags) {
     flags.push_back("--benchmark_filter=" + filter);
     flags.push_back("--benchmark_min_time=0.01");
@@ -35,7 +35,7 @@ class BenchmarkProgramTest : public ProgramTest {
     return json::parse(Read("run.json"));
   }
 
-  // A wall and a floor as a small scan.
+  // A small scan of a wall and a floor.
   std::string WriteScan(const std::string& name) {
     PointCloud cloud;
     cloud.points.resize(3, 800);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kBound = 0.6;
 
-// Nullopt: too close to the bound for single precision.
+// Nullopt if the pair is too close to the bound for single precision.
 std::optional<bool> IsConsistent(const MatchedProblem& problem,
                                  Eigen::Index i,
                                  Eigen::Index j) {
@@ -53,8 +53,8 @@ void ExpectThatOfLengths(const MatchedProblem& problem, SimdLevel level) {
 }
 
 TEST(Limits, PairTestIsThatOfLengthsAtEveryLevel) {
-  // Sizes within, at and beyond a word's end; matches far apart, and no further
-  // than a few bounds.
+  // Sizes within, at and beyond the end of a word; matches far apart, and
+  // within a few bounds of each other.
   for (const Eigen::Index n : {20, 31, 32, 33, 64, 175}) {
     for (const double scale : {1.0, 0.02}) {
       MatchedProblem problem = MakeOutlierProblem(n, 0.5, 0.1, 7);
@@ -81,7 +81,7 @@ TEST(Limits, PairTestHoldsBothHalvesOfTheRows) {
 TEST(PeakMemory, IsThatOfTheWorkAlone) {
   const auto use = [](std::size_t megabytes) {
     std::vector<char> bytes(megabytes << 20, 1);
-    // Read, so that it is not left out.
+    // Reads the result, so that the compiler keeps it.
     volatile char last = bytes.back();
     (void)last;
   };

@@ -33,7 +33,7 @@ using ::testing::HasSubstr;
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr char kIdentity[] = "1 0 0 0 0 1 0 0 0 0 1 0\n";
-// z ahead, x to the right, y down, a metre above the sensor.
+// z ahead, x to the right, y down, one meter above the sensor.
 constexpr char kCalibration[] =
     "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 0 -1 0 0 0 0 -1 1 1 0 0 0\n";
 
@@ -76,7 +76,7 @@ class KittiTest : public ProgramTest {
     options.sequence = sequence;
     return options;
   }
-  // One line that names `what` and says `why`.
+  // Expects one line that names `what` and gives the reason `why`.
   static void ExpectLine(const std::string& error,
                          const std::string& what,
                          const std::string& why) {
@@ -95,7 +95,7 @@ class KittiTest : public ProgramTest {
 
 class KittiOdometryTest : public KittiTest {};
 
-// An independent drive of random poses, as KittiWriter lays it out.
+// An independent drive of random poses, in the layout of KittiWriter.
 TEST_F(KittiOdometryTest, WhatTheWriterWritesComesBack) {
   std::string error;
   const auto writer = KittiWriter::Create(PathOf("05"), false, &error);
@@ -154,7 +154,7 @@ TEST_F(KittiOdometryTest, WhatTheWriterWritesComesBack) {
 
 TEST_F(KittiOdometryTest, PosesAreMovedFromTheCameraToTheSensor) {
   Put("00/calib.txt", kCalibration);
-  // A metre along z of cam0, then a quarter turn to the left, about -y.
+  // One meter along z of cam0, then a quarter turn to the left, about -y.
   Put("00/poses.txt", std::string(kIdentity) + "0 0 -1 0 0 1 0 0 1 0 0 1\n");
   PutScan("00/velodyne/000000.bin");
   PutScan("00/velodyne/000001.bin");
@@ -186,14 +186,14 @@ TEST_F(KittiOdometryTest, LayoutOfTheBenchmarkIsFoundFromItsRoot) {
   Put("kitti/sequences/00/calib.txt", kCalibration);
   Put("kitti/poses/00.txt", kIdentity);
   PutScan("kitti/sequences/00/velodyne/000000.bin");
-  // From the sequence's own folder as well, with a slash or without.
+  // Also from the sequence's own folder, with or without a trailing slash.
   EXPECT_EQ(ReadOdometry(In("kitti/sequences/00")).name, "00");
   EXPECT_EQ(ReadOdometry(In("kitti/sequences/00/")).name, "00");
   EXPECT_TRUE(ListKittiSequences(PathOf("none")).empty());
 }
 
-// SemanticKITTI puts a poses.txt into the sequence: truth, and the benchmark's
-// own poses are the INS.
+// SemanticKITTI adds a poses.txt to the sequence: it becomes the true poses,
+// and the benchmark's own poses become the INS.
 TEST_F(KittiOdometryTest, OfficialPosesBesideOthersAreTheIns) {
   const std::vector<Rigid3> truth = {Rigid3(), RandomPose(1), RandomPose(2)};
   const std::vector<Rigid3> official = {Rigid3(), RandomPose(3), RandomPose(4)};
@@ -212,7 +212,7 @@ TEST_F(KittiOdometryTest, OfficialPosesBesideOthersAreTheIns) {
   };
   KittiOdometryOptions options = In("kitti", "00");
   for (const bool is_given : {false, true}) {
-    if (is_given) {  // The other way round.
+    if (is_given) {  // Reversed.
       options.poses = PathOf("kitti/poses/00.txt");
       options.ins_poses = PathOf("kitti/sequences/00/poses.txt");
     }
@@ -228,7 +228,7 @@ TEST_F(KittiOdometryTest, OfficialPosesBesideOthersAreTheIns) {
               1e-9);
     EXPECT_THAT(data.notes, Contains(HasSubstr("INS from ")));
   }
-  // Official poses alone are the truth, and no INS.
+  // Official poses alone become the true poses, without an INS.
   fs::remove(PathOf("kitti/sequences/00/poses.txt"));
   const SequenceData data = ReadOdometry(In("kitti", "00"));
   EXPECT_TRUE(data.ins.empty());
@@ -245,7 +245,7 @@ TEST_F(KittiOdometryTest, InsIsMovedToTheSensor) {
   reading.attitude = {0.1, -0.2, 2.0};
   Put("00/" + OxtsName(0), Oxts(reading));
   EXPECT_NEAR(ReadOdometry(In("00")).ins.at(0).roll, 0.1, 1e-9);
-  // Velodyne from IMU: turned to the right by 30 deg.
+  // Velodyne from IMU, rotated to the right by 30 deg.
   Put("00/calib_imu_to_velo.txt",
       "calib_time: 25-May-2012\n"
       "R: 0.8660254 0.5 0 -0.5 0.8660254 0 0 0 1\nT: -0.81 0.32 -0.8\n");
@@ -275,7 +275,7 @@ TEST_F(KittiOdometryTest, MissingFramesAreCountedAndStayTasks) {
   ASSERT_TRUE(task);
   EXPECT_EQ(task->source, PathOf("00/velodyne/000007.bin"));
   EXPECT_FALSE(MakePairTask(data, 8, 0));
-  // Poses alone need no folder of scans.
+  // Reading only the poses needs no folder of scans.
   fs::remove_all(PathOf("00/velodyne"));
   ExpectBad(In("00"), PathOf("00/velodyne"), "No such file");
   KittiOdometryOptions options = In("00");
@@ -367,8 +367,8 @@ TEST_F(KittiOdometryTest, BadInputIsNamed) {
 
 class KittiRawTest : public KittiTest {};
 
-// Written by the projection of FormatOxts, read by that of equation (1) of
-// oxts.h; the sensor sits off the IMU and askew.
+// Written with the projection of FormatOxts and read with that of equation (1)
+// of oxts.h. The sensor is offset and rotated relative to the IMU.
 TEST_F(KittiRawTest, PosesAreThoseOfTheSensor) {
   const Rigid3 velodyne_from_imu = {WorldFromBody({0.02, -0.01, 0.03}),
                                     {-0.8, 0.3, -0.8}};
@@ -411,8 +411,8 @@ TEST_F(KittiRawTest, PosesAreThoseOfTheSensor) {
   }
 }
 
-// By hand: an arc second of latitude is 30.9 m on a sphere of E, everywhere; of
-// longitude cos(lat) of it; z is up.
+// By hand: one arc second of latitude is 30.9 m on a sphere of radius E
+// everywhere; one of longitude is cos(lat) times that; z is up.
 TEST(PosesOfOxtsTest, ArcsOfLatitudeAndLongitude) {
   OxtsReading first, north, east;
   first.latitude = north.latitude = east.latitude = 60.0;
@@ -473,8 +473,8 @@ TEST_F(KittiTest, AnySequenceIsReadByTheLayoutOfItsFolder) {
   ExpectLine(error, PathOf("none"), "is not a folder");
 }
 
-// The official poses as an INS beside SemanticKITTI's as truth, and what they
-// drift by.
+// The official poses as INS with SemanticKITTI's as true poses, and their
+// drift.
 TEST_F(KittiOdometryTest, RealSequencesHaveAPlausibleDrift) {
   const std::string real = std::string(QUATRO_DATA) + "/kitti_poses/";
   if (!fs::exists(real + "semantickitti/06.txt")) {
@@ -498,7 +498,7 @@ TEST_F(KittiOdometryTest, RealSequencesHaveAPlausibleDrift) {
     for (const auto& [frame, pose] : truth.world_from_sensor) {
       true_poses.push_back(pose);
       official_poses.push_back(official.world_from_sensor.at(frame));
-      // The INS is that trajectory's rotation.
+      // The INS has the rotations of that trajectory.
       EXPECT_LT(AngleBetween(WorldFromBody(truth.ins.at(frame)),
                              official_poses.back().rotation),
                 1e-6);

@@ -95,7 +95,7 @@ TEST_F(NaverTest, WhatTheWriterWritesComesBack) {
   }
 }
 
-// Both layouts of one drive are the same drive.
+// Both layouts of one drive give the same drive.
 TEST_F(NaverTest, SimulatedDriveIsTheSameInBothLayouts) {
   DriveOptions options;
   options.name = "hd_b1";
@@ -126,7 +126,7 @@ TEST_F(NaverTest, SimulatedDriveIsTheSameInBothLayouts) {
     EXPECT_EQ(a->points, b->points);
     EXPECT_EQ(a->intensity, b->intensity);
   }
-  // One layout may replace the other, and nothing else.
+  // One layout may replace the other, but nothing else.
   options.overwrite = true;
   options.layout = "kitti";
   ASSERT_TRUE(SimulateDrive(options, PathOf("naver"), nullptr, &error))
@@ -137,8 +137,8 @@ TEST_F(NaverTest, SimulatedDriveIsTheSameInBothLayouts) {
   EXPECT_THAT(error, HasSubstr("layout = 'sphere', must be kitti or naver"));
 }
 
-// As NAVER LABS has it: two lidars on a rig, stamps of 16 digits and out of
-// order, blanks, comments.
+// As in NAVER LABS' data: two lidars on a rig, stamps of 16 digits that are not
+// in order, spaces, comments.
 TEST_F(NaverTest, RigsStampsAndSeveralLidars) {
   Put("records_lidar.txt",
       "# kapture format: 1.1\n"
@@ -149,8 +149,9 @@ TEST_F(NaverTest, RigsStampsAndSeveralLidars) {
       "1555396546200000 , lidar0 , pcd/lidar0_1.pcd\r\n"
       "1555396546300000, lidar0, pcd/lidar0_2.pcd\n"
       "1555396546300000, lidar1, pcd/lidar1_2.pcd\n");
-  // The rig is turned by a quarter to the left, the lidar a metre ahead of it
-  // and turned by a half; a rig in a rig, 0.2 m behind and 0.5 m up.
+  // The rig is rotated by a quarter turn to the left, the lidar is one meter
+  // ahead of it and rotated by half a turn; a rig in a rig, 0.2 m behind and
+  // 0.5 m up.
   Put("rigs.txt",
       "# rig_device_id, sensor_device_id, qw, qx, qy, qz, tx, ty, tz\n"
       "head, lidar0, 0, 0, 0, 1, 1, 0, 0\n"
@@ -181,7 +182,7 @@ TEST_F(NaverTest, RigsStampsAndSeveralLidars) {
   options.lidar = "lidar1";
   data = ReadFrom(options);
   ASSERT_EQ(data.scans.size(), 2u);
-  // Its own pose comes before that of its rig.
+  // The lidar's own pose takes precedence over that of its rig.
   EXPECT_EQ(data.world_from_sensor.at(1).translation.x(), 7.0);
   options.lidar = "lidar2";
   ExpectBad(options, "records_lidar.txt", "has no records of a lidar 'lidar2'");
@@ -240,7 +241,7 @@ TEST_F(NaverTest, BadInputIsNamed) {
   Put("rigs.txt",
       "a, lidar0, 1, 0, 0, 0, 0, 0, 0\nb, lidar0, 1, 0, 0, 0, 0, 0, 0\n");
   ExpectBad(In("b1"), "rigs.txt: line 2", "is in a rig already");
-  // A circle of rigs ends.
+  // Rigs in a cycle are an error.
   Put("rigs.txt",
       "a, lidar0, 1, 0, 0, 0, 0, 0, 0\nlidar0, a, 1, 0, 0, 0, 0, 0, 0\n");
   Put("trajectories.txt", "11, lidar0, 1, 0, 0, 0, 0, 0, 0\n");

@@ -91,7 +91,7 @@ TEST_F(PairListTest, CsvWithTruthInsAndNegatives) {
   EXPECT_THAT(pairs->notes,
               Contains("2 of 3 scans are missing, the first is " +
                        PathOf("scans/b.bin")));
-  // No column but the two that must be there.
+  // Only the two required columns.
   Put("other.csv", "source,target\na.bin,b.bin\n");
   const auto negative = ReadPairsCsv(PathOf("other.csv"), &error);
   ASSERT_TRUE(negative) << error;
@@ -251,7 +251,7 @@ TEST_F(PairListTest, RealListsAgreeWithSemanticKitti) {
   struct List {
     const char* name;
     std::size_t num_pairs;
-    long num_off;  // By over 1 m or 3 deg.
+    long num_off;  // Differs by over 1 m or 3 deg.
   };
   for (const List& list : {List{"kitti_lc_0_10", 914, 46},
                            List{"kitti_lc_10_20", 1151, 53},

@@ -76,7 +76,7 @@ TEST(WilsonInterval, OfNothingIsEverything) {
   EXPECT_EQ(WilsonInterval(0, 0).high, 1.0);
 }
 
-// The share of all outcomes whose interval has the true rate, by their
+// The share of all outcomes whose interval contains the true rate, from their
 // binomial probabilities.
 TEST(WilsonInterval, CoversAsOftenAsItSays) {
   const long n = 50;
@@ -131,8 +131,8 @@ TEST(Bootstrap, OfNoValueIsNoneAndOfOneIsIt) {
   EXPECT_EQ(BootstrapMedian({4.0})->high, 4.0);
 }
 
-// Of two values, means of resamples are low, middle or high with 1/4, 1/2, 1/4:
-// the 10 % quantile is the low one, the 30 % quantile the middle.
+// For two values, means of resamples are low, middle or high with probability
+// 1/4, 1/2, 1/4: the 10 % quantile is low, the 30 % quantile is in the middle.
 TEST(Bootstrap, OfTwoValuesIsByHand) {
   const Interval wide = *BootstrapMean({0.0, 1.0}, {.confidence = 0.8});
   EXPECT_EQ(wide.low, 0.0);
@@ -152,7 +152,7 @@ TEST(Bootstrap, DependsOnTheSeedAlone) {
   EXPECT_NE(once.low, other.low);
 }
 
-// As wide as z sigma / sqrt(n) says, for many values.
+// The width agrees with z sigma / sqrt(n) for many values.
 TEST(Bootstrap, OfAMeanIsAsWideAsTheory) {
   const auto values = NormalValues(400, 1);
   const Interval interval = *BootstrapMean(values, {.num_samples = 4000});

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-// One metre a frame along x.
+// One meter per frame along x.
 std::vector<Rigid3> Line(int num_poses, double metres_per_frame) {
   std::vector<Rigid3> poses(static_cast<std::size_t>(num_poses));
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -31,7 +31,7 @@ std::vector<Rigid3> Line(int num_poses, double metres_per_frame) {
   return poses;
 }
 
-// Turning and climbing, 1 m or so a frame.
+// Turns and climbs, about 1 m per frame.
 std::vector<Rigid3> Drive(int num_poses, std::uint64_t seed) {
   std::vector<Rigid3> poses(1);
   Random random(seed);
@@ -56,9 +56,10 @@ KittiDrift Drift(const std::vector<Rigid3>& truth,
   return drift.value_or(KittiDrift{});
 }
 
-// By hand: on 151 poses a metre apart, 100 m are passed at the 101st frame
-// after the first (strictly more), so segments start at 0, 10, 20, 30 and 40
-// and are 101 m long; 2 % too long an estimate is 2.02 m off over "100 m".
+// By hand: on 151 poses one meter apart, more than 100 m are passed at the
+// 101st frame after the first, so segments start at 0, 10, 20, 30 and 40 and
+// are 101 m long. An estimate that is 2 % too long has an error of 2.02 m over
+// "100 m".
 TEST(KittiDrift, OfALineTwoPercentTooLongIsByHand) {
   const KittiDrift drift = Drift(Line(151, 1.0), Line(151, 1.02));
   ASSERT_EQ(drift.segments.size(), 5u);
@@ -70,10 +71,10 @@ TEST(KittiDrift, OfALineTwoPercentTooLongIsByHand) {
   EXPECT_NEAR(drift.end_translation_error, 3.0, 1e-9);
 }
 
-// An estimate at the right places whose heading turns by 0.01 deg a frame: over
-// 101 frames 1.01 deg, and the place 101 m ahead is seen at
-// 2 * 101 sin(f 0.01 deg / 2) from where it should be, f = 0, 10, ... 40 the
-// segment's start.
+// An estimate with correct positions whose heading drifts by 0.01 deg per
+// frame: the error is 1.01 deg over 101 frames, and the place 101 m ahead
+// appears 2 * 101 sin(f 0.01 deg / 2) from its true position, where f = 0, 10,
+// ... 40 is the start of the segment.
 TEST(KittiDrift, OfAHeadingThatTurnsIsByHand) {
   const auto truth = Line(151, 1.0);
   auto estimate = truth;
@@ -154,8 +155,9 @@ TEST(KittiDrift, BadInputIsNamed) {
   EXPECT_THAT(error, ::testing::HasSubstr("lengths"));
 }
 
-// The official poses (GPS and INS) against SemanticKITTI's (loop-closed lidar
-// SLAM): both of one drive, so what they differ by is small and not zero.
+// The official poses (GPS and INS) compared with SemanticKITTI's (loop-closed
+// lidar SLAM). Both are of one drive, so their difference is small but not
+// zero.
 TEST(KittiDrift, OfTheOfficialPosesOfKitti00IsSmall) {
   const std::string folder = std::string(QUATRO_DATA) + "/kitti_poses/";
   if (!std::filesystem::exists(folder + "kitti/00.txt")) {
@@ -171,7 +173,7 @@ TEST(KittiDrift, OfTheOfficialPosesOfKitti00IsSmall) {
   RecordProperty("t_rel_percent", std::to_string(drift.translation_percent));
   RecordProperty("r_rel", std::to_string(drift.rotation_deg_per_100m));
   EXPECT_NEAR(drift.path_length, 3712.34, 0.01);
-  // Figures of an implementation of its own, in another language.
+  // Values from an independent implementation in another language.
   EXPECT_EQ(drift.segments.size(), 3281u);
   EXPECT_NEAR(drift.translation_percent, 0.6527, 1e-3);
   EXPECT_NEAR(drift.rotation_deg_per_100m, 0.2308, 1e-3);

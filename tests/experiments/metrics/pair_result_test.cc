@@ -62,7 +62,7 @@ PairResult Parsed(const std::string& line) {
   return result.value_or(PairResult{});
 }
 
-// Bit for bit.
+// Equality bit for bit.
 void ExpectSame(const PairResult& a, const PairResult& b) {
   EXPECT_EQ(a.pair, b.pair);
   EXPECT_EQ(a.set, b.set);
@@ -105,7 +105,7 @@ TEST(PairError, IsByHand) {
   EXPECT_DOUBLE_EQ(error.translation, 5.0);
 }
 
-// A tilt is no error of yaw.
+// A tilt does not change the yaw error.
 TEST(PairError, OfATiltHasNoYaw) {
   const Eigen::Matrix3d tilt =
       Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -135,7 +135,7 @@ TEST(PairError, StaysInRange) {
   }
 }
 
-// Both scans' poses given in another frame of the target.
+// Both scans' poses in another frame of the target.
 TEST(PairError, IsTheSameUnderACommonMotionOfTheTarget) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Rigid3 truth = RandomPose(seed), estimate = RandomPose(seed + 50);
@@ -153,7 +153,8 @@ TEST(PairError, IsTheSameUnderACommonMotionOfTheTarget) {
   }
 }
 
-// Of the source, the rotation's error alone: the origin is elsewhere then.
+// In another frame of the source only the rotation error stays, because the
+// origin changes.
 TEST(PairError, OfRotationIsTheSameUnderAMotionOfTheSourceAndASwap) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Rigid3 truth = RandomPose(seed), estimate = RandomPose(seed + 50);
@@ -211,7 +212,7 @@ TEST(PairResultCsv, AnglesAreInDegreesAndTimesInMilliseconds) {
   EXPECT_THAT(line, HasSubstr(",voxels=1.5;features=60"));
 }
 
-// A good line with cell `column` replaced.
+// A valid line with the cell of `column` replaced.
 std::string ErrorWith(const std::string& column, const std::string& text) {
   const auto names = SplitCsvLine(ResultCsvHeader());
   auto cells = SplitCsvLine(FormatResultCsv(Example(3)));
@@ -226,8 +227,9 @@ std::string ErrorWith(const std::string& column, const std::string& text) {
 TEST(PairResultCsv, ABadLineNamesItsColumn) {
   EXPECT_EQ(ErrorWith("pair", ""), "column pair is empty");
   EXPECT_EQ(ErrorWith("method", ""), "column method is empty");
-  EXPECT_EQ(ErrorWith("status", "fine"), "column status is no status: 'fine'");
-  // Nothing that a terminal would act upon.
+  EXPECT_EQ(ErrorWith("status", "fine"),
+            "column status is not a status: 'fine'");
+  // No control characters for the terminal.
   for (const char* const column : {"status", "m22", "matches", "stages_ms"}) {
     EXPECT_THAT(ErrorWith(column, "1\x1b[2J\x7f"), HasSubstr("'1?[2J?'"));
   }
@@ -244,7 +246,7 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
                                    "total_ms"}) {
     for (const char* const text : {"x", "nan", "inf", "1e999", "1 ", "0x1"}) {
       EXPECT_EQ(ErrorWith(column, text),
-                std::string("column ") + column + " is no finite number: '" +
+                std::string("column ") + column + " is not a finite number: '" +
                     text + "'");
     }
   }
@@ -252,7 +254,7 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
     for (const char* const text : {"", "-1", "1.5", "99999999999999999999"}) {
       EXPECT_EQ(
           ErrorWith(column, text),
-          std::string("column ") + column + " is no count: '" + text + "'");
+          std::string("column ") + column + " is not a count: '" + text + "'");
     }
   }
   EXPECT_THAT(ErrorWith("probability", "1.1"),
@@ -262,7 +264,7 @@ TEST(PairResultCsv, ABadLineNamesItsColumn) {
   EXPECT_THAT(ErrorWith("yaw_error_deg", ""),
               StartsWith("column yaw_error_deg is empty"));
   EXPECT_THAT(ErrorWith("m11", ""), StartsWith("column m11 is empty"));
-  EXPECT_THAT(ErrorWith("m11", "0.5"), HasSubstr("no rotation"));
+  EXPECT_THAT(ErrorWith("m11", "0.5"), HasSubstr("not a rotation"));
   EXPECT_THAT(ErrorWith("total_ms", ""), StartsWith("column total_ms"));
   for (const char* const text : {"voxels", "=3", "voxels=x", "voxels=-1"}) {
     EXPECT_THAT(ErrorWith("stages_ms", text), StartsWith("column stages_ms"));
@@ -284,7 +286,7 @@ TEST(PairResultCsv, AnErrorNeedsAPose) {
   result.target_from_source.reset();
   std::string error;
   EXPECT_FALSE(ParseResultCsv(FormatResultCsv(result), &error));
-  EXPECT_THAT(error, HasSubstr("yet there is an error"));
+  EXPECT_THAT(error, HasSubstr("but the line has an error"));
 }
 
 class ResultFileTest : public ProgramTest {
@@ -328,12 +330,12 @@ TEST_F(ResultFileTest, ThatIsBadNamesLineAndColumn) {
   EXPECT_THAT(ErrorOf(good + "\n"), StartsWith("line 1 must be pair,set"));
   EXPECT_EQ(ErrorOf(header + good + "\n" + "a,b\n"),
             "line 3 has 2 columns, must have 29");
-  EXPECT_EQ(ErrorOf(header + good), "line 2 is cut off");
+  EXPECT_EQ(ErrorOf(header + good), "line 2 is truncated");
   EXPECT_THAT(ErrorOf(header + "\n" + good + "\n"), StartsWith("line 2 has 1"));
   std::string bad = good;
   bad.replace(bad.find("registered"), 10, "done");
   EXPECT_EQ(ErrorOf(header + bad + "\n"),
-            "line 2 column status is no status: 'done'");
+            "line 2 column status is not a status: 'done'");
 }
 
 TEST_F(ResultFileTest, ThatIsMissingIsNamed) {

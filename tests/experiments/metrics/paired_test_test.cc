@@ -17,7 +17,7 @@
 namespace quatro {
 namespace {
 
-// 2 sum C(n, k) / 2^n in whole numbers, by Pascal's triangle.
+// 2 sum C(n, k) / 2^n in integers, by Pascal's triangle.
 double McNemarByPascal(long b, long c) {
   const auto n = static_cast<std::size_t>(b + c);
   std::vector<double> row = {1.0};
@@ -53,20 +53,21 @@ TEST(McNemarP, IsTheSumOfBinomials) {
 }
 
 TEST(McNemarP, OfManyPairsNeitherOverflowsNorVanishes) {
-  // The normal law with the continuity correction, z = (|b - c| - 1) / sqrt(n).
+  // The normal approximation with continuity correction, z = (|b - c| - 1) /
+  // sqrt(n).
   const double z = (200.0 - 1.0) / std::sqrt(10000.0);
   EXPECT_NEAR(McNemarP(4900, 5100), std::erfc(z / std::sqrt(2.0)), 1e-4);
   EXPECT_GE(McNemarP(0, 5000), 0.0);
   EXPECT_LT(McNemarP(0, 5000), 1e-300);
 }
 
-// Darwin's plants, crossed less self-fertilised: Fisher counted 863 of 2^15 at
-// 314 or more. ("The Design of Experiments", section 21.)
+// Darwin's plants, crossed minus self-fertilized: Fisher counted 863 of 2^15
+// sums of at least 314. ("The Design of Experiments", section 21.)
 TEST(SignFlipP, OfDarwinsPlantsIsFishers) {
   const std::vector<double> d = {
       49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48};
   EXPECT_DOUBLE_EQ(SignFlipP(d, {.max_enumerated = 15}), 2.0 * 863 / 32768);
-  // Drawn, within four standard deviations.
+  // Random draws, within four standard deviations.
   const double p = 2.0 * 863 / 32768;
   EXPECT_NEAR(SignFlipP(d, {.max_enumerated = 0, .num_draws = 20000}),
               p,
@@ -78,13 +79,13 @@ TEST(SignFlipP, IsByHand) {
   EXPECT_EQ(SignFlipP({0.0, 0.0}), 1.0);
   EXPECT_EQ(SignFlipP({3.0}), 1.0);
   EXPECT_EQ(SignFlipP({1.0, 2.0}), 0.5);        // 3, 1, -1, -3
-  EXPECT_EQ(SignFlipP({1.0, 0.0, 2.0}), 0.5);   // A tie tells nothing.
-  EXPECT_EQ(SignFlipP({0.1, 0.2, 0.3}), 0.25);  // Sums that round.
+  EXPECT_EQ(SignFlipP({1.0, 0.0, 2.0}), 0.5);   // A tie has no effect.
+  EXPECT_EQ(SignFlipP({0.1, 0.2, 0.3}), 0.25);  // Sums with rounding.
   EXPECT_EQ(SignFlipP({-0.1, -0.2, 0.3}), 1.0);
-  EXPECT_EQ(SignFlipP({5.0, 4.0, -1.0}), 0.5);  // 10 twice, 8 twice of 8.
+  EXPECT_EQ(SignFlipP({5.0, 4.0, -1.0}), 0.5);  // 10 twice and 8 twice, of 8.
 }
 
-// Wherever the draw's 64 bits run out.
+// More differences than the draw has bits (64).
 TEST(SignFlipP, OfManyClearDifferencesIsTheLeastThereIs) {
   EXPECT_EQ(SignFlipP(std::vector<double>(150, 1.0), {.num_draws = 999}),
             1.0 / 1000.0);
@@ -93,7 +94,7 @@ TEST(SignFlipP, OfManyClearDifferencesIsTheLeastThereIs) {
   EXPECT_EQ(SignFlipP(even), 1.0);
 }
 
-// Sums of 200 signs have the standard deviation sqrt(200).
+// The sum of 200 random signs has standard deviation sqrt(200).
 TEST(SignFlipP, OfManyPairsIsTheNormalLaw) {
   std::vector<double> d(200, 1.0);
   for (std::size_t i = 0; i < 86; ++i) d[i] = -1.0;  // Sum 28.
@@ -130,7 +131,7 @@ TEST(ComparePaired, CountsPairsOfBothMethods) {
       ResultOff("a", "2", 0.1, 1.0),
       ResultOff("a", "3", 5.0, 1.0),
       ResultWithoutAnswer("a", "4"),
-      ResultOff("a", "5", 0.1, 1.0),  // b has none of it.
+      ResultOff("a", "5", 0.1, 1.0),  // b has no such pair.
       UnreadableResult("a", "6"),
       ResultApart("a", "7", "registered"),
       elsewhere,

@@ -23,7 +23,7 @@ RegistrationMetrics Metrics(const std::vector<PairResult>& results) {
   return ComputeMetrics(results, UsualLimits());
 }
 
-// Five answers, one none, one unreadable, two of scans that share no place.
+// Five answers, one without an answer, one unreadable, two without overlap.
 std::vector<PairResult> Mixed() {
   auto unsure = ResultOff("m", "e", 10.0, 60.0);
   unsure.status = "ambiguous";
@@ -46,7 +46,7 @@ TEST(RegistrationMetrics, CountEveryKindOfPair) {
   EXPECT_EQ(metrics.num_posed, 6);
   EXPECT_EQ(metrics.num_answers, 5);
   EXPECT_EQ(metrics.num_registered, 5);
-  // d is beyond 2 m, h shares no place; e was not registered.
+  // d is beyond 2 m, h has no overlap; e is not registered.
   EXPECT_EQ(metrics.num_wrong_registered, 2);
   EXPECT_THAT(metrics.num_successes, ElementsAre(3, 2, 1));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What odometries match to: voxels, surfels, lines and planes of a map, and
-// those of the scan before.
+// The targets of odometry matching: voxels, surfels, lines and planes of a map,
+// and those of the previous scan.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(VoxelMapTest, HoldsTheMeanOfEachVoxelAndForgetsFarOnes) {
   EXPECT_EQ(map.size(), 1);
 }
 
-// Five points along a line, and then five of a plane, across it.
+// Five points along a line, and then five points in a plane across it.
 TEST(FitTest, LineAndPlaneOfTheFiveNearest) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Eigen::Matrix3d turn = RandomRotation(seed);
@@ -53,7 +53,7 @@ TEST(FitTest, LineAndPlaneOfTheFiveNearest) {
     ASSERT_TRUE(line);
     EXPECT_EQ(line->source, source);
     EXPECT_GT(std::abs(line->direction.dot(turn.col(0))), 0.999);
-    // No plane: its normal would be that of the noise.
+    // Not a plane: its normal would be determined by noise.
     EXPECT_FALSE(FitPlane(line_map, source, query, 1.0));
 
     const auto plane = FitPlane(plane_map, source, query, 1.0);
@@ -80,7 +80,7 @@ TEST(FitTest, NeitherOfABallOrOfTooFew) {
   EXPECT_FALSE(FitPlane(KdTree(Points(3, 0)), query, query, 1.0));
 }
 
-// Three rings: a pole along z at x = 5 and a wall x = 8.
+// Three rings see a pole along z at x = 5 and a wall x = 8.
 TEST(MatchToScanTest, LineAndPlaneAreOfMoreThanOneRing) {
   RingFeatures features;
   Points pole(3, 3), wall(3, 9);
@@ -103,7 +103,7 @@ TEST(MatchToScanTest, LineAndPlaneAreOfMoreThanOneRing) {
 
   const Rigid3 far{Eigen::Matrix3d::Identity(), {2.0, 0.0, 0.0}};
   EXPECT_TRUE(MatchToScan(features, model, far, 1.0, 1).lines.empty());
-  // One ring holds neither.
+  // One ring determines neither a line nor a plane.
   features.less_sharp.ring = {1, 1, 1};
   features.less_flat.ring.assign(9, 1);
   const auto none = MatchToScan(features, ScanModel(features), shift, 1.0, 1);
@@ -120,7 +120,7 @@ SphericalImage Image() {
   return image;
 }
 
-// A wall x = `distance` as far as |y| < distance.
+// A wall x = `distance` for |y| < distance.
 VertexMap SeeWall(double distance) {
   const SphericalImage image = Image();
   std::vector<double> coordinates;
@@ -162,7 +162,7 @@ TEST(SurfelMapTest, IsSeenFromElsewhereWithoutHoles) {
   map.Update(SeeWall(8.0), {});
   const Rigid3 ahead{RotationZ(0.2), Eigen::Vector3d(2.0, 1.0, 0.1)};
   const RenderedMap rendered = map.Render(Image(), ahead);
-  // The middle of the wall as seen from there: all pixels are on it.
+  // The center of the wall as seen from there: all pixels are on it.
   int num_seen = 0;
   for (int v = 10; v < 30; ++v) {
     for (int u = 170; u < 200; ++u) {
@@ -175,7 +175,7 @@ TEST(SurfelMapTest, IsSeenFromElsewhereWithoutHoles) {
     }
   }
   EXPECT_EQ(num_seen, 600);
-  // Nor from behind.
+  // Also not from behind.
   const Rigid3 behind{RotationZ(M_PI), Eigen::Vector3d(16.0, 0.0, 0.0)};
   EXPECT_TRUE(map.Render(Image(), behind).view.vertices.isZero(0.0));
 }
@@ -185,8 +185,8 @@ TEST(SurfelMapTest, AgreementConfirmsAndSmoothes) {
   map.Update(SeeWall(8.0), {});
   const std::size_t before = map.surfels().size();
   map.Update(SeeWall(8.1), {});
-  // Nearly nothing is new, and what agreed has moved by a tenth, but at the
-  // wall's rim, where normals are of half a window.
+  // Hardly anything is new, and consistent points have moved by a tenth, except
+  // at the rim of the wall, where normals come from half a window.
   EXPECT_LT(map.surfels().size(), before * 11 / 10);
   std::size_t num_confirmed = 0;
   double moved = 0.0;

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 class OdometryProgramTest : public ProgramTest {
  protected:
-  // Six scans, a metre apart.
+  // Six scans, one meter apart.
   std::string SimulateDrive() const {
     const ProgramRun run = RunProgram(
         "quatro_simulate", {"--output=" + PathOf("drive"), "--num_frames=6"});
@@ -136,7 +136,7 @@ TEST_F(OdometryProgramTest, EndsWithTheLastFileAndRefusesAStrayOne) {
   EXPECT_THAT(without.err, HasSubstr("there is no file of frame 3"));
 }
 
-// Table II by quatro_experiment.
+// Table II from quatro_experiment.
 TEST_F(OdometryProgramTest, ATableGoesOnAsWhatItWas) {
   const ProgramRun simulated = RunProgram(
       "quatro_simulate",
@@ -156,7 +156,7 @@ TEST_F(OdometryProgramTest, ATableGoesOnAsWhatItWas) {
   EXPECT_THAT(Read("run/table_two.csv"), HasSubstr("\nquatro,measured,"));
   EXPECT_THAT(Read("run/table_two.tex"), HasSubstr("toprule"));
   EXPECT_THAT(Read("run/manifest.json"), HasSubstr("\"preset\": \"kitti\""));
-  // It has the time that it took.
+  // The table has the time of the run.
   const std::string description = Read("run/odometry/drive_quatro_1.json");
   EXPECT_FALSE(description.empty());
 
@@ -167,10 +167,12 @@ TEST_F(OdometryProgramTest, ATableGoesOnAsWhatItWas) {
   EXPECT_THAT(Read("run/table_two.csv"), HasSubstr("\nfgr,measured,"));
   ExpectBadInput("quatro_experiment",
                  flags("--preset=paper"),
-                 "is of another run",
+                 "belongs to another run",
                  "--preset was 'kitti', is 'paper'");
-  ExpectBadInput(
-      "quatro_experiment", flags("--max_frames=5"), "is of another run", "");
+  ExpectBadInput("quatro_experiment",
+                 flags("--max_frames=5"),
+                 "belongs to another run",
+                 "");
 
   const ProgramRun tilt = RunProgram("quatro_experiment",
                                      {"--protocol=tilt",

@@ -39,8 +39,8 @@ struct Drive {
   std::vector<Rigid3> world_from_scan;  // The first scan is the world.
 };
 
-// Along a simulated street from `start` on, `step` [m] a scan; every second
-// column of the sensor.
+// Along a simulated street starting at `start`, `step` [m] per scan, with every
+// second column of the sensor.
 Drive MakeDrive(int num_scans, double start = 90.0, double step = 0.8) {
   RoadOptions options;
   options.seed = 3;
@@ -89,8 +89,9 @@ double TranslationError(const Rigid3& a, const Rigid3& b) {
 
 class OdometryMethodTest : public ::testing::TestWithParam<const char*> {};
 
-// Within 1 % of the path plus 5 cm of noise, and half a degree, all along.
-// Point to point creeps: rings of a scan hold each other.
+// The error is within 1 % of the path plus 5 cm of noise, and half a degree,
+// along the whole path. Point to point converges slowly, because the rings of
+// two scans attract each other.
 TEST_P(OdometryMethodTest, FollowsASimulatedStreet) {
   const Drive& drive = TheDrive();
   const bool creeps = GetParam() == std::string("icp");
@@ -135,7 +136,7 @@ TEST_P(OdometryMethodTest, TheSameScanAgainIsTheSamePlace) {
   }
 }
 
-// Scans that are no scans.
+// Unusable scans.
 std::vector<PointCloud> BadScans() {
   std::vector<PointCloud> bad(5);
   bad[1].points = Points::Ones(3, 1);
@@ -156,7 +157,7 @@ TEST_P(OdometryMethodTest, ABadScanIsLostAndTheNextIsNot) {
     const OdometryStep bad = odometry->AddScan(BadScans()[b]);
     EXPECT_EQ(bad.status, OdometryStatus::kLost);
     EXPECT_NE(bad.message, "");
-    // Its pose goes on as before.
+    // The pose continues at constant velocity.
     EXPECT_LT(TranslationError(bad.world_from_scan, drive.world_from_scan[3]),
               max_error);
     const OdometryStep next = odometry->AddScan(drive.scans[4]);
@@ -178,7 +179,7 @@ TEST_P(OdometryMethodTest, BadScansAtTheStartAreNotTheWorld) {
   EXPECT_EQ(odometry->AddScan(drive.scans[1]).status, OdometryStatus::kTracked);
 }
 
-// Real scans of KITTI 00, half a metre to 2 m apart.
+// Real scans of KITTI 00, 0.5 to 2 m apart.
 TEST_P(OdometryMethodTest, FollowsKitti00) {
   const std::string folder = std::string(QUATRO_DATA) + "/kitti_00/";
   std::vector<PointCloud> scans;
@@ -192,7 +193,7 @@ TEST_P(OdometryMethodTest, FollowsKitti00) {
     scans.push_back(*cloud);
   }
   const auto steps = Follow(Make(GetParam()).get(), scans);
-  // Of pairs.csv: 000001 and 000002 in 000000.
+  // From pairs.csv: 000001 and 000002 in 000000.
   const Eigen::Vector3d truth[] = {{0.672784, 0.000508, 0.019690},
                                    {1.374692, 0.003031, 0.027451}};
   for (std::size_t i = 1; i < 3; ++i) {
@@ -224,7 +225,7 @@ TEST(Aloam, AScanWithoutRingsIsLost) {
   EXPECT_THAT(step.message, HasSubstr("rings"));
 }
 
-// Without a map that matches there is the scan before alone, which drifts more.
+// Without a matching map there is only the previous scan, which drifts more.
 TEST(Aloam, TheMapHoldsTheDrift) {
   const Drive& drive = TheDrive();
   double error[2] = {};
@@ -242,8 +243,8 @@ TEST(Aloam, TheMapHoldsTheDrift) {
   EXPECT_LT(error[1], 0.7 * error[0]);
 }
 
-// Without a velocity a second scan that is metres ahead is found by what a
-// method does at its start, and not without.
+// Before there is a velocity, a second scan that is meters ahead is found only
+// because of the start rounds of a method.
 template <typename Method, typename Options>
 double ErrorOfASecondScan(double ahead, const Options& options) {
   const Drive drive = MakeDrive(2, 40.0, ahead);
@@ -267,7 +268,7 @@ TEST(Suma, TheSecondScanMayBeMetresAhead) {
   EXPECT_GT(ErrorOfASecondScan<Suma>(5.6, options), 1.0);
 }
 
-// Steps of a metre with a turn, told exactly.
+// Steps of one meter with a turn, with exact answers.
 FrameAligner ExactAligner(const Rigid3& last_from_next) {
   return [last_from_next](const PointCloud&, const PointCloud&, const Rigid3&) {
     return FrameAlignment{last_from_next, "exact"};
@@ -280,8 +281,8 @@ PointCloud SomeCloud() {
   return cloud;
 }
 
-// Rotations that are not made orthonormal again part from the path within some
-// forty scans: each guess doubles what is off.
+// Without renormalization, rotations diverge from the path within about forty
+// scans, because each guess doubles the error.
 TEST(FrameToFrameTest, ALongRingClosesAndStaysARotation) {
   const int n = 720;
   const Rigid3 step{RotationZ(2.0 * M_PI / n), Eigen::Vector3d(1.0, 0.0, 0.0)};
@@ -295,7 +296,7 @@ TEST(FrameToFrameTest, ALongRingClosesAndStaysARotation) {
       1e-12);
 }
 
-// The same where the answer is made from the guess, as local methods do.
+// The same if the answer is derived from the guess, as in local methods.
 TEST(FrameToFrameTest, ALongRingOfGuessesClosesAndStaysARotation) {
   const int n = 720;
   const Rigid3 step{RandomRotation(1) * RotationZ(2.0 * M_PI / n) *
@@ -342,7 +343,7 @@ TEST(FrameToFrameTest, TheGuessIsConstantVelocityAndLostScansGoOnByIt) {
                             const Rigid3& guess) -> FrameAlignment {
     guesses.push_back(guess);
     if (guesses.size() == 3) return {std::nullopt, "fails on purpose"};
-    // The fourth call is two steps from the last scan that was tracked.
+    // The fourth call is two steps from the last tracked scan.
     return {guesses.size() == 4 ? step * step : step, "exact"};
   });
   std::vector<OdometryStep> steps =
@@ -390,7 +391,7 @@ TEST(FrameToFrameTest, AMethodFromCloudsIsGivenBothScansAndTheGuess) {
   EXPECT_THAT(alignment.message, HasSubstr("as told"));
 }
 
-// The last step, 5.6 m, is out of reach of no motion.
+// The last step, 5.6 m, is too far from the identity.
 TEST(FrameToFrameTest, GicpFollowsFromConstantVelocity) {
   const Drive& drive = TheDrive();
   const auto odometry = Make("gicp");

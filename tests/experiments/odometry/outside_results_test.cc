@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Results of other programs, and the table that they enter.
+// Results of other programs, and the table that contains them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 class OutsideResultsTest : public ProgramTest {
  protected:
-  // One line that names the file and says `why`.
+  // Expects one line that names the file and gives the reason `why`.
   void ExpectBadPoses(const std::string& text, const std::string& why) const {
     const std::string path = Write("poses.txt", text);
     std::string error;
@@ -52,7 +52,7 @@ TEST_F(OutsideResultsTest, PosesComeBack) {
   }
 }
 
-// As KITTI writes them, with six digits and a carriage return.
+// As written by KITTI, with six digits and a carriage return.
 TEST_F(OutsideResultsTest, RoundedRotationsAreMadeRotations) {
   std::string error;
   const auto read = ReadKittiPoses(
@@ -92,7 +92,7 @@ TEST_F(OutsideResultsTest, CalibrationMovesPosesIntoCam0) {
                                  "Tr: 0 -1 0 1 0 0 -1 2 1 0 0 3\n");
   const auto cam0_from_lidar = ReadKittiCalibration(path, &error);
   ASSERT_TRUE(cam0_from_lidar) << error;
-  // A metre ahead of the lidar is a metre along z of cam0.
+  // One meter ahead of the lidar is one meter along z of cam0.
   const auto poses = MoveToCam0(
       {{Eigen::Matrix3d::Identity(), {1.0, 0.0, 0.0}}}, *cam0_from_lidar);
   EXPECT_LT((poses[0].translation - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
@@ -151,7 +151,7 @@ TEST(TableTwo, QuotedRowsArePapersAndMarked) {
                           "12.10",
                           "-",
                           "-"));
-  // No figures for intervals that the authors do not give.
+  // No values for intervals that the authors do not report.
   EXPECT_THAT(table.rows[8],
               ElementsAre("LO-Net",
                           "quoted",

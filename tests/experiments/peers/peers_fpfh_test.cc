@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// features/fpfh.h against Open3D's and PCL's FPFH.
+// Compares features/fpfh.h with Open3D's and PCL's FPFH.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ constexpr Peer kPeers[] = {
 #endif
 };
 
-// Our pair features put together as the peers do: neighbours weighted by one
+// Our pair features combined like those of the peers: neighbors weighted by one
 // over the squared distance, each part of their sum scaled to 100.
 Fpfh ComposeAsPeersDo(const Points& points,
                       const Points& normals,
@@ -116,7 +116,7 @@ TEST_F(FpfhPeer, IsOursButForItsWeights) {
     std::vector<float> our_difference;
     for (Eigen::Index i = 0; i < points_.cols(); ++i) {
       if (theirs.col(i).isZero(0.0)) continue;
-      // Of a sum of 300.
+      // Relative to a sum of 300.
       const float scale = 300.0f / theirs.col(i).sum();
       composed_difference.push_back(
           scale * (theirs.col(i) - composed.col(i)).cwiseAbs().sum());
@@ -129,7 +129,7 @@ TEST_F(FpfhPeer, IsOursButForItsWeights) {
     // A feature on the edge of a bin may fall on either side.
     EXPECT_LE(Quantile(composed_difference, 0.5), 0.5f);
     EXPECT_LE(Quantile(composed_difference, 0.95), 5.0f);
-    // The documented difference: visible, and no other descriptor.
+    // The documented difference is visible, but the descriptors are similar.
     EXPECT_GE(Quantile(our_difference, 0.5), 2.0f);
     EXPECT_LE(Quantile(our_difference, 0.5), 60.0f);
   }
@@ -146,7 +146,7 @@ TEST_F(FpfhPeer, HasNoneWhereThereIsNoNormal) {
   }
 }
 
-// The place far from the origin costs PCL no digits.
+// A location far from the origin costs PCL no digits.
 TEST_F(FpfhPeer, DoesNotDependOnThePlace) {
   const Points moved = points_.colwise() + Eigen::Vector3d(5e5, -3e5, 100.0);
   for (const Peer& peer : kPeers) {
@@ -160,7 +160,7 @@ TEST_F(FpfhPeer, DoesNotDependOnThePlace) {
   }
 }
 
-// From clouds, by what --list_methods names.
+// On clouds, with the names in --list_methods.
 TEST_F(FpfhPeer, QuatroOnItsMatchesIsInTheRegistry) {
   const Rigid3 true_target_from_source{RotationZ(0.7), {1.0, -0.8, 0.1}};
   PointCloud source;

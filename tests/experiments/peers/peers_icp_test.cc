@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// solvers/local/icp.h and gicp.h against Open3D's and PCL's, on the same
+// Compares solvers/local/icp.h and gicp.h with Open3D's and PCL's, on the same
 // points.
 
 #include <gmock/gmock.h>
@@ -40,7 +40,7 @@ struct Peer {
                             const Points& target,
                             const Rigid3& initial_target_from_source,
                             const RefinementOptions& options);
-  double max_difference;  // From ours, of the source's middle [m].
+  double max_difference;  // From ours, at the source's center [m].
 };
 
 struct Pair {
@@ -69,7 +69,7 @@ Pair MakePair(std::uint64_t seed) {
   return {voxels[1], voxels[0], Inverse(poses[0]) * poses[1]};
 }
 
-// 3 deg and 0.3 m off.
+// An error of 3 deg and 0.3 m.
 Rigid3 OffBy(const Rigid3& truth, std::uint64_t seed) {
   const Eigen::Vector3d axis = RandomRotation(seed).col(0);
   return Rigid3{Eigen::AngleAxisd(3.0 * kDegree, axis).toRotationMatrix(),
@@ -77,7 +77,7 @@ Rigid3 OffBy(const Rigid3& truth, std::uint64_t seed) {
          truth;
 }
 
-// So that it is the minimum that is compared, not where one stops before it.
+// Compares the minima and not the points where the iterations stop.
 RefinementOptions Options(RefinementMethod method) {
   RefinementOptions options;
   options.method = method;
@@ -128,7 +128,7 @@ TEST_P(IcpPeerTest, EndsWhereOursDoes) {
       EXPECT_NEAR(static_cast<double>(ours.num_inliers),
                   static_cast<double>(theirs.num_inliers),
                   5.0);
-      // Both moved.
+      // Both poses have moved.
       EXPECT_LE(AngleBetween(b.rotation, pair.true_target_from_source.rotation),
                 0.3 * kDegree);
     }
@@ -171,7 +171,7 @@ TEST_P(IcpPeerTest, BadInputIsNoAnswer) {
     broken.source(1, 5) = nan;
     EXPECT_EQ(Align(broken, {}, options).termination,
               AlignmentTermination::kInvalidInput);
-    // Nothing corresponds.
+    // There are no correspondences.
     const Rigid3 away{Eigen::Matrix3d::Identity(), {0.0, 0.0, 500.0}};
     const AlignmentSummary far = Align(pair, away, options);
     EXPECT_FALSE(far.IsUsable());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// robust/estimators/fgr.h and robust/estimators/ransac.h against Open3D's, on
-// the same matches.
+// Compares robust/estimators/fgr.h and robust/estimators/ransac.h with
+// Open3D's, on the same matches.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Open3dPeer, OurFgrIsRightAtLeastAsOften) {
           TurnedProblem(num_inliers, 200 - num_inliers, seed);
       num_ours +=
           IsRight(SolveFgr(problem.source, problem.target, {}), problem);
-      // Without its tuple test: the same matches.
+      // Without Open3D's tuple test, so that the matches are the same.
       Open3dFgrOptions options;
       options.tuple_test = false;
       num_theirs += IsRight(
@@ -67,8 +67,8 @@ TEST(Open3dPeer, OurFgrIsRightAtLeastAsOften) {
   }
 }
 
-// Both fail by chance where 10,000 samples are few: at 16 of 200, in one of 70
-// runs.
+// Both fail by chance if 10,000 samples are not enough: at 16 inliers of 200,
+// in one of 70 runs.
 TEST(Open3dPeer, OurRansacIsRightAtLeastAsOften) {
   int num_ours = 0;
   int num_theirs = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// robust/estimators/ransac.h against PCL's, on the same matches.
+// Compares robust/estimators/ransac.h with PCL's, on the same matches.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(PclPeer, OurRansacIsRightAtLeastAsOften) {
       const PoseSummary theirs =
           SolveByPclRansac(problem.source, problem.target, kBound, {});
       num_theirs += IsRight(theirs, problem);
-      // Where both find most, they find the same.
+      // If both find most inliers, they find the same ones.
       if (num_inliers == 100) {
         EXPECT_TRUE(IsRight(theirs, problem)) << "seed " << seed;
       }
@@ -54,7 +54,7 @@ TEST(PclPeer, OurRansacIsRightAtLeastAsOften) {
   RecordProperty("theirs", num_theirs);
 }
 
-// A sample of three alone is farther off.
+// A sample of three points alone is less accurate.
 TEST(PclPeer, RansacEndsWithLeastSquares) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const KnownProblem problem = TurnedProblem(100, 100, seed);
@@ -72,7 +72,7 @@ TEST(PclPeer, RansacEndsWithLeastSquares) {
 TEST(PclPeer, RansacDependsOnTheSeedAlone) {
   const KnownProblem problem = TurnedProblem(16, 184, 1);
   PclRansacOptions options;
-  options.max_iterations = 50;  // Not enough: the draws show.
+  options.max_iterations = 50;  // Too few, so that the draws matter.
   const auto solve = [&](std::uint64_t seed) {
     options.seed = seed;
     return SolveByPclRansac(problem.source, problem.target, 5.0, options);

@@ -30,7 +30,7 @@ class G2oTest : public ProgramTest {
     return ReadG2o(Write("graph.g2o", text), &error_);
   }
 
-  // `why` with the line; one line that names the file.
+  // Expects one line that names the file and contains `why`.
   void ExpectRefused(const std::string& text, const std::string& why) {
     EXPECT_FALSE(ReadText(text).has_value()) << text;
     EXPECT_THAT(error_, HasSubstr(PathOf("graph.g2o") + ": "));
@@ -101,18 +101,18 @@ TEST_F(G2oTest, RefusesWhatItDoesNotKnow) {
   ExpectRefused("", "has no poses");
   ExpectRefused("# nothing\n\n", "has no poses");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_XY 1 0 0\n",
-                "line 2: 'VERTEX_XY' is not known");
+                "line 2: 'VERTEX_XY' is not a known tag");
   ExpectRefused("VERTEX_SE2 a 0 0 0\n", "line 1: pose 'a' is not an id");
   ExpectRefused("VERTEX_SE2 -1 0 0 0\n", "'-1' is not an id");
   ExpectRefused("VERTEX_SE2 1.5 0 0 0\n", "'1.5' is not an id");
   ExpectRefused("VERTEX_SE2 99999999999999999999 0 0 0\n", "is not an id");
   ExpectRefused("VERTEX_SE2 0 0 0\n", "line 1: ends before number 3 of 3");
-  ExpectRefused("VERTEX_SE2 0 0 0 0 0\n", "more than expected: '0'");
+  ExpectRefused("VERTEX_SE2 0 0 0 0 0\n", "unexpected text at its end: '0'");
   ExpectRefused("VERTEX_SE2 0 0 x 0\n", "'x' is not a number");
   ExpectRefused("VERTEX_SE2 0 0 nan 0\n", "'nan' is not finite");
   ExpectRefused("VERTEX_SE2 0 inf 0 0\n", "'inf' is not finite");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 0 1 0 0\n",
-                "line 2: pose 0 is there already");
+                "line 2: pose 0 was defined before");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n",
                 "line 2: SE2 and SE3 in one file");
   ExpectRefused("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 0\n", "quaternion has length");
@@ -136,7 +136,7 @@ TEST_F(G2oTest, MissingFileIsNamed) {
   EXPECT_THAT(error_, HasSubstr("No such file"));
 }
 
-// Whatever is cut off, it ends in an answer or in one line.
+// A file truncated anywhere gives a graph or a one-line error.
 TEST_F(G2oTest, CutAnywhereDoesNotCrash) {
   const std::string text = kPlanar;
   for (std::size_t length = 0; length < text.size(); ++length) {

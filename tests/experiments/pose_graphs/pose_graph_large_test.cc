@@ -28,7 +28,7 @@ GraphWorld MakeLarge(int num_poses) {
 TEST(LargePoseGraph, TimeIsThatOfTheInnerSolves) {
   GraphWorld world = MakeLarge(10000);
   PoseGraphOptions options;
-  options.gnc.max_num_iterations = 3;  // Each is like the others.
+  options.gnc.max_num_iterations = 3;  // All iterations are alike.
   options.solver.max_num_iterations = 2;
   const auto summary = SolvePoseGraph(options, &world.graph);
   ASSERT_TRUE(summary.is_usable) << summary.report;
@@ -39,7 +39,7 @@ TEST(LargePoseGraph, TimeIsThatOfTheInnerSolves) {
   EXPECT_LT(ratio, 1.3);
 }
 
-// Bytes in use for the weighted twin of a graph, for each residual block.
+// Bytes in use by the weighted twin of a graph, per residual block.
 double TwinBytesPerBlock(int num_poses) {
   GraphWorld world = MakeLarge(num_poses);
   PoseGraphProblem problem(world.graph, PoseGraphOptions());

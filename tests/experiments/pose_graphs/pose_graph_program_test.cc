@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// quatro_pose_graph and quatro_fit_line from outside.
+// Runs quatro_pose_graph and quatro_fit_line as programs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,9 +30,10 @@ TEST_F(PoseGraphProgramTest, GeneratedWorldIsFoundAndWritten) {
                                      "--output=" + PathOf("answer.g2o"),
                                      "--world_output=" + PathOf("world.g2o")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("of 30 wrong loops 0 kept weight, 0 right"));
+  EXPECT_THAT(run.out,
+              HasSubstr("30 outlier loops, 0 of them accepted; 0 inlier"));
 
-  // The world as a file comes to the same answer.
+  // Solving the world from a file gives the same answer.
   const ProgramRun again = RunProgram(
       "quatro_pose_graph",
       {"--input=" + PathOf("world.g2o"), "--output=" + PathOf("again.g2o")});
@@ -51,7 +52,7 @@ TEST_F(PoseGraphProgramTest, GeneratedWorldIsFoundAndWritten) {
 }
 
 TEST_F(PoseGraphProgramTest, ChainsTheOdometryOfAFile) {
-  // Poses that are nonsense; odometry that says a metre each.
+  // Incorrect initial poses; each odometry edge has a length of one meter.
   const std::string path = Write("graph.g2o",
                                  "VERTEX_SE2 0 0 0 0\n"
                                  "VERTEX_SE2 1 500 3 2\n"
@@ -88,20 +89,20 @@ TEST_F(PoseGraphProgramTest, GraphInPartsIsNoAnswer) {
   for (const char* flag : {"--nochain_odometry", "--chain_odometry"}) {
     const ProgramRun parts = run("", flag);
     EXPECT_EQ(parts.exit_code, 1) << parts.err;
-    EXPECT_THAT(parts.out, HasSubstr("in 2 parts"));
+    EXPECT_THAT(parts.out, HasSubstr("has 2 components"));
     EXPECT_THAT(parts.out, HasSubstr("joins pose 7 to pose 5"));
     EXPECT_FALSE(std::filesystem::exists(PathOf("answer.g2o")));
   }
   // GNC rejects both of two loops that contradict each other.
   const ProgramRun rejected = run(near + far, "--loss=gnc");
   EXPECT_EQ(rejected.exit_code, 1) << rejected.out;
-  EXPECT_THAT(rejected.out, HasSubstr("in 2 parts"));
+  EXPECT_THAT(rejected.out, HasSubstr("has 2 components"));
   EXPECT_EQ(run(near + far, "--loss=none").exit_code, 0);
-  // Tukey's loss is flat where the graph begins.
+  // Tukey's loss is flat at the initial poses.
   const ProgramRun flat = run(far, "--loss=tukey");
   EXPECT_EQ(flat.exit_code, 1) << flat.out;
-  EXPECT_THAT(flat.out, HasSubstr("in 2 parts"));
-  // It rejects that between fixed poses, too, but these are where they are.
+  EXPECT_THAT(flat.out, HasSubstr("has 2 components"));
+  // It also rejects the edge between fixed poses, but these do not move.
   for (const std::string& more : {near, far, "FIX 5\nFIX 8\n" + far}) {
     EXPECT_EQ(run(more, "--loss=gnc").exit_code, 0) << more;
   }

@@ -80,7 +80,7 @@ TEST_P(PoseGraphWorld, DependsOnTheSeedAlone) {
             c.graph.edges[250].from_from_to.translation);
 }
 
-// Without noise the truth has no cost, and the start has.
+// Without noise the true poses have zero cost, and the initial poses do not.
 TEST_P(PoseGraphWorld, WithoutNoiseTheTruthIsTheAnswer) {
   GraphWorld world = Make(GetParam(), 0.0, 5);
   for (PoseEdge& edge : world.graph.edges) {
@@ -136,7 +136,7 @@ TEST_P(PoseGraphWorld, AnswerDoesNotDependOnTheOrderOfLoops) {
       1e-6);
 }
 
-// The answer is that of plain least squares with these weights.
+// The solution equals plain least squares with these weights.
 TEST_P(PoseGraphWorld, WeightsOfALossMakeItsAnswer) {
   for (const LoopLoss loss :
        {LoopLoss::kHuber, LoopLoss::kCauchy, LoopLoss::kTukey}) {
@@ -192,8 +192,9 @@ TEST(PoseGraphProblemTest, ResidualsAreWhitened) {
   }
 }
 
-// The cost of one edge whose ends are turned by `yaw`, with an information that
-// ties x to the rotation: the sign of the rotation's error counts.
+// The cost of one edge whose ends are rotated by `yaw`, with an information
+// that couples x and the rotation, so that the sign of the rotation error
+// matters.
 double CostOfTurnedEdge(int dimension, double yaw) {
   const int n = dimension == 2 ? 3 : 6;
   PoseGraph graph;
@@ -216,8 +217,8 @@ double CostOfTurnedEdge(int dimension, double yaw) {
 
 TEST(PoseGraphProblemTest, HalfTurnsAreNoJump) {
   for (const int dimension : {2, 3}) {
-    // x is off by 0.02, the rotation by 0.01. From 4.1 on quaternions of the
-    // two ends are written with opposite signs.
+    // The error of x is 0.02, that of the rotation 0.01. From 4.1 on, the
+    // quaternions of the two ends have opposite signs.
     const double expected = 0.5 * (4e-4 + 1e-4 + 2.0 * 0.9 * 2e-4);
     for (const double yaw : {0.0, 1.0, 3.0, -3.1, M_PI - 0.15, 4.1}) {
       EXPECT_NEAR(CostOfTurnedEdge(dimension, yaw), expected, 1e-8)
@@ -236,7 +237,7 @@ TEST(PoseGraphWorldOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   expect_error({.world = "flat"}, "world = flat");
   expect_error({.num_poses = 10}, "poses = 10");
   expect_error({.num_loops = -1}, "loops = -1");
-  expect_error({.num_loops = 100000}, "pairs of poses for right ones");
+  expect_error({.num_loops = 100000}, "pairs of poses for inlier loops");
   expect_error({.wrong_share = 1.5}, "wrong_share = 1.5");
   expect_error({.translation_sigma = 0.0}, "sigma_m = 0");
   expect_error({.rotation_sigma = -1.0}, "sigma_deg = -57");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Real scans of three places, every two of them registered, in one pose graph.
+// Real scans of three places, registered pairwise and combined in one pose
+// graph.
 
 #include "experiments/pose_graphs/scan_graph.h"
 
@@ -30,8 +31,9 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-// The first six and the last are one place, 88 and 95 another 60 m on, and 850
-// is far from both. Between places there is no right answer.
+// The first six and the last are one place, 88 and 95 are another one 60 m
+// away, and 850 is far from both. Scans of different places have no correct
+// pose.
 constexpr int kFrames[] = {0, 5, 10, 20, 88, 95, 850, 4413};
 
 std::string DataPath(const std::string& name) {
@@ -55,7 +57,7 @@ Rigid3 ParsePose(std::istream& numbers) {
   return {svd.matrixU() * svd.matrixV().transpose(), m.col(3)};
 }
 
-// Poses of the scanner at kFrames, by one of the trajectories of KITTI.
+// Poses of the lidar at kFrames, from one of the trajectories of KITTI.
 std::vector<Rigid3> ReadTrajectory(const std::string& kind) {
   Rigid3 camera_from_scanner;
   std::ifstream calib(DataPath("kitti_poses/calib/00.txt"));
@@ -79,8 +81,8 @@ std::vector<Rigid3> ReadTrajectory(const std::string& kind) {
   return poses;
 }
 
-// Odometry by GPS and INS: 0.1 m and 0.5 deg at a few metres, and after minutes
-// about 2 m and 1 deg.
+// Odometry from GPS and INS: 0.1 m and 0.5 deg over a few meters, and about 2 m
+// and 1 deg after minutes.
 PoseGraph MakeOdometry(const std::vector<Rigid3>& poses) {
   PoseGraph graph;
   graph.world_from_pose = poses;
@@ -122,8 +124,8 @@ TEST(AddLoops, TakesThoseWithAnAnswer) {
   EXPECT_EQ(graph.edges[0].from_from_to.translation, Eigen::Vector3d(1, 2, 3));
 }
 
-// A line of pairs.csv of which both scans are in the graph: where the first is
-// seen from the second.
+// A line of pairs.csv whose scans are both in the graph: the pose of the first
+// as seen from the second.
 struct ListedPair {
   std::size_t source = 0;
   std::size_t target = 0;
@@ -213,7 +215,7 @@ TEST_F(ScanGraphTest, GncKeepsTheRightPairsOfRealScansAndDropsTheWrong) {
   EXPECT_GE(num_right, 4);
   EXPECT_GE(num_wrong, 4);
 
-  // Frame 4413 is back at frame 0, which GPS misses by more than this.
+  // Frame 4413 revisits frame 0; the error of the GPS exceeds this.
   const auto error_of = [&](const std::vector<Rigid3>& poses) {
     const Rigid3 back = Inverse(poses[0]) * poses[7];
     const Rigid3 expected = Inverse(truth[0]) * truth[7];

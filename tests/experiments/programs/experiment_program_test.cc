@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// quatro_experiment on scans, as a user runs it.
+// quatro_experiment on scans, run as a program.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ class ExperimentProgramTest : public ProgramTest {
     return flags;
   }
 
-  // All tables but those of times.
+  // All tables except the timing tables.
   std::map<std::string, std::string> TablesOf(const std::string& output) const {
     std::map<std::string, std::string> tables;
     for (const auto& [name, text] : Contents()) {
@@ -79,7 +79,7 @@ class ExperimentProgramTest : public ProgramTest {
     return tables;
   }
 
-  // The views, and of the page all but the manifest and what it says of times.
+  // The views, and the page without the manifest and times.
   std::map<std::string, std::string> ReportOf(const std::string& output) const {
     std::map<std::string, std::string> report;
     for (const auto& [name, text] : Contents()) {
@@ -103,7 +103,8 @@ class ExperimentProgramTest : public ProgramTest {
     return report;
   }
 
-  // Starts the program and kills it after so long; whether it was done before.
+  // Starts the program and kills it after this time; returns whether it had
+  // finished.
   bool RunAndKill(const std::vector<std::string>& args, double seconds) const {
     const pid_t child = fork();
     if (child == 0) {
@@ -208,7 +209,7 @@ TEST_F(ExperimentProgramTest, ProblemsAreStoppedGoneOnWithAndSharedOutToo) {
       RunProgram("quatro_experiment", flags("whole", "--threads=2"));
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   EXPECT_THAT(whole.out, HasSubstr("degeneracy"));
-  // Of 9-12 m there are some, but no loops of the paper's.
+  // There are pairs at 9-12 m, but no loops at the paper's distances.
   EXPECT_FALSE(std::filesystem::exists(PathOf("whole/tables/table_one.csv")));
   for (const char* more : {"--shard=1/2", "--shard=2/2", "--merge"}) {
     const ProgramRun run =
@@ -218,7 +219,7 @@ TEST_F(ExperimentProgramTest, ProblemsAreStoppedGoneOnWithAndSharedOutToo) {
   EXPECT_EQ(TablesOf("parts"), TablesOf("whole"));
   ExpectBadInput("quatro_experiment",
                  flags("whole", "--seeds=3"),
-                 "is of another run",
+                 "belongs to another run",
                  "tasks");
   ExpectBadInput("quatro_experiment",
                  flags("other", "--families=magic"),
@@ -247,13 +248,13 @@ TEST_F(ExperimentProgramTest, OtherFlagsOrDataAreNotMixedIn) {
   ASSERT_EQ(RunProgram("quatro_experiment", Flags("run")).exit_code, 0);
   ExpectBadInput("quatro_experiment",
                  Flags("run", "--seed=2"),
-                 "is of another run",
+                 "belongs to another run",
                  "seed");
   std::string list = Read("pairs.csv");
   list.replace(list.find("0.8,"), 3, "0.9");
   Write("pairs.csv", list);
   ExpectBadInput(
-      "quatro_experiment", Flags("run"), "is of another run", "tasks");
+      "quatro_experiment", Flags("run"), "belongs to another run", "tasks");
 }
 
 TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
@@ -285,7 +286,7 @@ TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
                     "--output=" + PathOf("run"),
                     std::string("--intervals=1,") + text},
                    "--intervals",
-                   "is no number of frames");
+                   "is not a number of frames");
   }
   for (const char* text : {"0", "1e-09", "nan", "181"}) {
     ExpectBadInput("quatro_experiment",

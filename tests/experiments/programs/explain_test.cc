@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// What quatro_solve reports of these matches.
+// The report of quatro_solve for these matches.
 Json Report(const PointsRef& source, const PointsRef& target) {
   const QuatroOptions options;
   const QuatroSummary summary = SolveQuatro(source, target, options);
@@ -63,7 +63,7 @@ TEST(Explain, TellsTheNumbersOfTheReport) {
       HasSubstr("polish: " + report["notes"]["polish"].get<std::string>()));
   EXPECT_THAT(text, HasSubstr("certificate: the yaw is the global optimum"));
   EXPECT_THAT(text, HasSubstr(report["reason"]));
-  // No clouds, no word of them; nothing to change.
+  // Without clouds they are not mentioned, and there is nothing to change.
   EXPECT_THAT(text, Not(HasSubstr("voxels:")));
   EXPECT_THAT(text, Not(HasSubstr("geometry:")));
   EXPECT_THAT(text, Not(HasSubstr("what to do")));
@@ -101,7 +101,7 @@ TEST(Explain, OfTwinsNamesTheRival) {
   }
   const std::string text = Unwrapped(Explain(Report(problem)));
   EXPECT_THAT(text, HasSubstr("verdict: ambiguous"));
-  EXPECT_THAT(text, HasSubstr("another pose has nearly as many matches"));
+  EXPECT_THAT(text, HasSubstr("another pose has nearly as many inliers"));
 }
 
 TEST(Explain, OfAnAccidentSaysSo) {
@@ -126,12 +126,12 @@ TEST(Explain, OfCloudsTellsTheFrontEndAndWhatSpeaksAgainst) {
                                     {"coarse_overlap", 0.1},
                                     {"rival_overlap", 0.09}};
   const std::string text = Unwrapped(Explain(report));
-  EXPECT_THAT(text, HasSubstr("of 1000 points of the source (3 were not"));
-  EXPECT_THAT(text, HasSubstr("2000 points are each other's nearest"));
-  EXPECT_THAT(text, HasSubstr("8 % of what stands"));
+  EXPECT_THAT(text, HasSubstr("the 1000 source points (3 not finite"));
+  EXPECT_THAT(text, HasSubstr("2000 pairs are mutual nearest neighbors"));
+  EXPECT_THAT(text, HasSubstr("8 % of the vertical structure"));
   EXPECT_THAT(text, HasSubstr("--fpfh_radius"));
   EXPECT_THAT(text, HasSubstr("less than a tenth"));
-  EXPECT_THAT(text, HasSubstr("share no place"));
+  EXPECT_THAT(text, HasSubstr("show different places"));
   EXPECT_THAT(text, HasSubstr("free space"));
 }
 
@@ -147,9 +147,10 @@ TEST(Explain, TellsOfAnInsAndOfARefinement) {
                           {"message", "taken"}};
   const std::string text = Unwrapped(Explain(report));
   EXPECT_THAT(text, HasSubstr("ins: roll and pitch of the INS, fused; solved"));
-  EXPECT_THAT(text,
-              HasSubstr("refinement: gicp moved by 0.25 m and 0.5 deg: "
-                        "taken"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("refinement: gicp moved the pose by 0.25 m and 0.5 deg: "
+                "taken"));
 }
 
 TEST(Explain, KeepsToTheWidthOfATerminal) {

@@ -27,7 +27,7 @@ FilmOptions SmallFilm(std::uint64_t seed) {
   return options;
 }
 
-// What is filmed is the loop as it is, not another one.
+// The film shows the same loop that the estimator runs.
 TEST(GncFilm, EndsWhereTheLoopDoes) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const FilmOptions options = SmallFilm(seed);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The flags of the INS, from outside.
+// The flags of the INS, tested through the programs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ Eigen::Matrix3d RotationOf(const json& report) {
   return rotation;
 }
 
-// A source rolled by 10 deg and pitched by -5 deg, a level target.
+// A source rolled by 10 deg and pitched by -5 deg, and a level target.
 class InsProgramTest : public ProgramTest {
  protected:
   InsProgramTest() {
@@ -164,7 +164,7 @@ TEST_F(InsProgramTest, MethodWithoutIns) {
 }
 
 // Two scans of a street corner, the source rolled by 12 deg and the target
-// pitched by -3 deg, in axes with x up.
+// pitched by -3 deg, with x up.
 TEST_F(InsProgramTest, RegistersTiltedScansInAnyAxes) {
   const Rigid3 true_pose{RotationZ(0.7), {1.0, -0.8, 0.1}};
   const Eigen::Matrix3d level_from_source = LevelFromBody(12.0 * kDegree, 0.0);

@@ -29,7 +29,7 @@ class MatchesCsvTest : public ProgramTest {
     return matches;
   }
 
-  // Why a text is refused, without the file's name.
+  // The reason why a text is rejected, without the file's name.
   std::string ErrorOf(const std::string& text) const {
     const std::string path = Write("a.csv", text);
     std::string error;

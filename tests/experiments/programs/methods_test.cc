@@ -101,7 +101,7 @@ TEST(Methods, AreTheSolversTheyAreNamedFor) {
 TEST(Methods, TakeWhatAppliesToThemFromTheOptions) {
   const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.1, 3);
   QuatroOptions options;
-  options.noise_bound = 0.05;  // Less than the noise.
+  options.noise_bound = 0.05;  // Smaller than the noise.
   for (const std::string& name : MethodNames()) {
     EXPECT_LT(Solve(name, problem, options).num_translation_inliers,
               Solve(name, problem).num_translation_inliers)
@@ -129,7 +129,7 @@ TEST(Methods, QuatroInsNeedsAnIns) {
   EXPECT_FALSE(MakeSolver("quatro_ins", {}, &error));
   EXPECT_THAT(error, HasSubstr("needs an INS"));
   EXPECT_THAT(error, HasSubstr("--source_rpy_deg"));
-  // An axis is not one.
+  // An axis has another meaning.
   InsOptions ins;
   ins.up = Eigen::Vector3d::UnitX();
   EXPECT_FALSE(MakeSolver("quatro_ins", {}, ins, &error));
@@ -180,7 +180,7 @@ TEST(Methods, OdometriesAreListedAndPointToTheirProgram) {
     EXPECT_THAT(error, HasSubstr("quatro_odometry"));
     EXPECT_FALSE(FindCloudSolver(name));
   }
-  // Where they can't be run they are not offered.
+  // Methods that are not built are not listed.
   std::string error;
   EXPECT_FALSE(MakeSolver("nothing", {}, &error));
   EXPECT_THAT(error, ::testing::Not(HasSubstr("suma")));
@@ -202,7 +202,7 @@ TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
   EXPECT_FALSE(FindCloudSolver("nothing"));
 }
 
-// Quatro on matches of a peer's descriptors.
+// Quatro on matches of another library's descriptors.
 bool IsFrontEnd(const std::string& name) { return name.ends_with("_fpfh"); }
 
 bool IsGlobal(const std::string& name) {
@@ -223,7 +223,7 @@ TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
         << name << summary.error;
     if (summary.refinement) {
       EXPECT_TRUE(summary.refinement->is_accepted) << name;
-      // That of a peer: open3d_icp.
+      // The summary of another library: open3d_icp.
       EXPECT_EQ(RefinementName(summary.refinement->method),
                 IsGlobal(name) ? "gicp" : name.substr(name.find('_') + 1));
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Real scans: the front door and the solver against poses that are known.
+// Real scans: the front end and the solver, compared with known poses.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-// Success of the registration benchmarks on KITTI.
+// The success criteria of the registration benchmarks on KITTI.
 constexpr double kMaxTranslationError = 0.6;         // [m]
 constexpr double kMaxRotationError = 5.0 * kDegree;  // The whole rotation.
 
@@ -41,7 +41,7 @@ bool Has(const std::string& name) {
   return std::filesystem::exists(DataPath(name));
 }
 
-// Columns by their names; no cell read here holds a comma.
+// Columns by name; no cell read here contains a comma.
 std::vector<std::map<std::string, std::string>> ReadTable(
     const std::string& name) {
   std::ifstream file(DataPath(name));
@@ -122,7 +122,8 @@ class PairsTest : public ::testing::Test {
   }
 };
 
-// All but the RGB-D pair, which is tilted by 15 degrees and no vehicle's.
+// All pairs except the RGB-D pair, which is tilted by 15 degrees and not from a
+// vehicle.
 TEST_F(PairsTest, FindsAllPosesButTiltedOnes) {
   int num_pairs = 0;
   int num_found = 0;
@@ -140,7 +141,7 @@ TEST_F(PairsTest, FindsAllPosesButTiltedOnes) {
                          kMaxRotationError)) {
       ++num_found;
     } else {
-      // A yaw can't do better than the tilt that it leaves out.
+      // A yaw cannot be more accurate than the ignored tilt.
       EXPECT_GT(pair.Tilt(), kMaxRotationError)
           << pair.source << " -> " << pair.target << ": "
           << summary.verdict.reason;
@@ -151,8 +152,8 @@ TEST_F(PairsTest, FindsAllPosesButTiltedOnes) {
   EXPECT_GE(num_registered, 45);
 }
 
-// A street scanned 10 m on: what the matches say of the pose is a degree's
-// tenths and centimetres, not nothing and not metres.
+// A street scanned again 10 m further on: the uncertainty of the pose is tenths
+// of a degree and centimeters, neither zero nor meters.
 TEST_F(PairsTest, CovarianceOfARealPairIsPlausible) {
   const std::string source = "kitti_00/000010.bin";
   const std::string target = "kitti_00/000000.bin";
@@ -204,11 +205,11 @@ TEST_F(PairsTest, ProgramExitsWithOneForDifferentPlaces) {
   }
 }
 
-// There and back moves the matched points by no more than twice the noise bound
-// an axis: each way is within one bound of the matches that it keeps. Measured
-// at the points, in the mean square, and not as the translation: that is the
-// motion of the origin, where an error of the rotation grows with the distance
-// of the points from there.
+// Registering in both directions moves the matched points by at most twice the
+// noise bound per axis, because each direction is within one bound of its
+// inliers. The motion is measured at the points, as a root mean square, and not
+// as the translation: that is the motion of the origin, where a rotation error
+// is multiplied by the distance of the points.
 TEST_F(PairsTest, SwappedScansGiveTheInverse) {
   constexpr double kNoiseBound = 0.3;  // [m], of preset kitti.
   const std::vector<std::pair<std::string, std::string>> pairs = {
@@ -235,10 +236,10 @@ TEST_F(PairsTest, SwappedScansGiveTheInverse) {
   }
 }
 
-// Published FPFH matches of other authors, 97 to 99 % of them wrong.
+// Published FPFH matches of other authors, with 97 to 99 % outliers.
 class PublishedMatchesTest : public ProgramTest {
  protected:
-  // Two files of x y z a line as one of six columns.
+  // Joins two files of x y z per line into one with six columns.
   std::string Zip(const std::string& source, const std::string& target) const {
     std::ifstream source_file(DataPath(source));
     std::ifstream target_file(DataPath(target));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// quatro_register from outside.
+// Runs quatro_register as a program.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ struct Box {
   double yaw;
 };
 
-// A floor of 12 m x 12 m, and seven boxes on it of different sizes and
-// headings, hit at random, to 5 mm.
+// A floor of 12 m x 12 m with seven boxes of different sizes and headings,
+// sampled at random, with 5 mm of noise.
 Points RandomYard(Eigen::Index n, std::uint64_t seed) {
   const std::array<Box, 7> boxes = {{{{-4.5, -4.0, 0}, {1.0, 0.6, 1.1}, 0.3},
                                      {{3.0, -4.5, 0}, {0.5, 1.7, 0.7}, 1.1},
@@ -95,7 +95,7 @@ class RegisterProgramTest : public ProgramTest {
     return PathOf(name);
   }
 
-  // Two scans of the yard, no point of which was hit in both.
+  // Two scans of the yard without common points.
   void WriteYard(
       const Eigen::Vector3d& offset = Eigen::Vector3d::Zero()) const {
     WritePoints("source.ply", RandomYard(40000, 1).colwise() + offset);
@@ -111,7 +111,7 @@ class RegisterProgramTest : public ProgramTest {
     return RunProgram("quatro_register", args);
   }
 
-  // Neither cloud says anything.
+  // Neither cloud has features.
   void ExpectInsufficient(const Points& points) const {
     WritePoints("source.ply", points);
     WritePoints("target.ply", points);
@@ -138,7 +138,7 @@ class RegisterProgramTest : public ProgramTest {
                    why);
   }
 
-  // A flag that is wrong where all else is right.
+  // An invalid flag, with everything else valid.
   void ExpectRefusedFlag(const std::string& flag,
                          const std::string& what,
                          const std::string& why) const {
@@ -297,7 +297,7 @@ TEST_F(RegisterProgramTest, OutputOntoADevice) {
   ExpectRefusedFlag("--json=/dev/null", "/dev/null", "is not a regular file");
 }
 
-// Too little to go by
+// Too little data
 
 TEST_F(RegisterProgramTest, OnePointIsInsufficient) {
   ExpectInsufficient(Points::Ones(3, 1));
@@ -322,7 +322,7 @@ TEST_F(RegisterProgramTest, ABareFloorIsNotRegistered) {
   EXPECT_EQ(run.exit_code, 1) << run.out;
 }
 
-// Two scans of one place
+// Two scans of the same place
 
 TEST_F(RegisterProgramTest, FindsThePose) {
   WriteYard();
@@ -339,8 +339,9 @@ TEST_F(RegisterProgramTest, FindsThePose) {
   EXPECT_EQ(report["parameters"]["voxel_size"], 0.1);
 }
 
-// Fewer matches than near the origin, which is where the sensor is taken to be:
-// from afar the normals of two scans no longer face the same way.
+// There are fewer matches than near the origin, where the sensor is assumed to
+// be: seen from afar, the normals of two scans are no longer oriented
+// consistently.
 TEST_F(RegisterProgramTest, FindsThePoseFarFromTheOrigin) {
   const Eigen::Vector3d offset(1e7, -1e7, 100.0);
   WriteYard(offset);
@@ -348,7 +349,7 @@ TEST_F(RegisterProgramTest, FindsThePoseFarFromTheOrigin) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const Rigid3 pose = PoseOf(json::parse(run.out));
   EXPECT_THAT(Yaw(pose.rotation), IsAngleNear(1.9, 2.0 * M_PI / 180.0));
-  // Where the points are: at the origin a hundredth of a degree is 2 km.
+  // Measured at the points: at the origin, a hundredth of a degree is 2 km.
   EXPECT_LT((pose * offset - (TruePose().translation + offset)).norm(), 0.2);
 }
 
@@ -376,7 +377,7 @@ TEST_F(RegisterProgramTest, RefinesThePoseAndSaysByHowMuch) {
   EXPECT_EQ(c2f["target_from_source"], report["target_from_source"]);
 }
 
-// The truth is 109 deg away from no motion.
+// The true pose is 109 deg from the identity.
 TEST_F(RegisterProgramTest, LocalMethodsDoNotVouchForWhatTheyFind) {
   WriteYard();
   for (const std::string method : {"icp", "gicp", "vgicp"}) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// quatro_solve from outside.
+// Runs quatro_solve as a program.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ struct Problem {
   Rigid3 target_from_source;
 };
 
-// A quarter of the matches right, to 3 sigma = noise_bound / 2; the rest have
-// any target.
+// A quarter of the matches are inliers with 3 sigma = noise_bound / 2; the rest
+// have random targets.
 Problem MakeProblem(Eigen::Index num_matches, std::uint64_t seed) {
   Problem problem;
   problem.target_from_source = {RotationZ(2.1), {8.0, -5.0, 0.4}};
@@ -79,7 +79,7 @@ class SolveProgramTest : public ProgramTest {
     return RunProgram("quatro_solve", flags);
   }
 
-  // Of a run whose exit code must agree with its status.
+  // Runs the program and checks that its exit code agrees with its status.
   static json ReportOf(const ProgramRun& run) {
     const json report = json::parse(run.out, nullptr, false);
     EXPECT_TRUE(report.is_object()) << run.out << run.err;
@@ -101,7 +101,7 @@ class SolveProgramTest : public ProgramTest {
         "quatro_solve", {"--correspondences=" + path}, path + ": ", why);
   }
 
-  // A flag that is wrong where all else is right.
+  // An invalid flag, with everything else valid.
   void ExpectRefusedFlag(const std::string& flag,
                          const std::string& what,
                          const std::string& why) const {
@@ -241,7 +241,7 @@ TEST_F(SolveProgramTest, FullOutputIsToldAndLeavesFilesAlone) {
                         "--explain"});
 }
 
-// Too little to go by
+// Too little data
 
 TEST_F(SolveProgramTest, NoMatchesAreInsufficient) {
   const json report = Report({Points(3, 0), Points(3, 0)});
@@ -326,7 +326,7 @@ TEST_F(SolveProgramTest, RegistersFarFromTheOrigin) {
   problem.matches.target.colwise() += offset;
   const json report = Report(problem.matches);
   EXPECT_EQ(report["status"], "registered") << report["reason"];
-  // Where the points are: at the origin an error of 1e-3 rad would be 10 km.
+  // Measured at the points: at the origin, an error of 1e-3 rad would be 10 km.
   const Rigid3 pose = PoseOf(report);
   const Points moved = pose.Apply(problem.matches.source.leftCols(100));
   EXPECT_LT((moved - problem.matches.target.leftCols(100))

@@ -39,8 +39,8 @@ void Add(int frame, const Rigid3& pose, SequenceData* data) {
   data->world_from_sensor[frame] = pose;
 }
 
-// Rounds of a circle, a step of the arc a frame [m]; each round is 0.5 m
-// further out than the one before.
+// Rounds on a circle, with a fixed arc length per frame [m]; each round is 0.5
+// m farther out than the previous one.
 SequenceData Rounds(int num_frames, double radius, double step) {
   SequenceData data;
   data.name = "06";
@@ -111,7 +111,7 @@ TEST(DrawEvenlyTest, IsSpreadAndHitsEachAsOften) {
   for (const int n : hits) EXPECT_NEAR(n, 900, 100);
 }
 
-// All pairs, by the definition.
+// All pairs, from the definition.
 TEST(FindLoopsTest, AreThoseOfTheDefinition) {
   SequenceData data = Rounds(400, 15.0, 0.6);
   for (const int frame : {17, 18, 200}) data.world_from_sensor.erase(frame);
@@ -153,7 +153,7 @@ TEST(FindLoopsTest, AreThoseOfTheDefinition) {
   }
 }
 
-// A minute at a red light is no loop.
+// A minute at a red light is not a loop.
 TEST(FindLoopsTest, StandingStillIsNone) {
   SequenceData data;
   for (int i = 0; i < 600; ++i) {
@@ -192,8 +192,8 @@ TEST(SelectLoopPairsTest, KeepsToBinsGapAndNumber) {
                   .norm(),
               1e-12);
   }
-  // In order, each once, and nowhere more than two of 40 to a twentieth of the
-  // way: 314 frames are the first round, which has no loop.
+  // In order, each once, and at most two of 40 in any twentieth of the path.
+  // The first round of 314 frames has no loop.
   for (const auto& [bin, frames] : sources) {
     ASSERT_EQ(frames.size(), 40u) << bin;
     int largest_step = 0;
@@ -221,7 +221,7 @@ TEST(SelectLoopPairsTest, SeedDecidesAndOtherBinsDoNot) {
   EXPECT_NE(NamesOf(Select(data, options).tasks),
             std::vector<std::string>(names.begin() + 60, names.end()));
   options.bins = {{8.0, 10.0}};
-  // Targets are drawn, not always the first or the last of a source's.
+  // Targets are drawn and not always the first or the last of a source.
   options.max_pairs_per_bin = 0;
   std::map<int, std::vector<int>> targets;
   for (const Loop& loop : FindLoops(data, options.bins[0], options.loop)) {
@@ -272,7 +272,7 @@ TEST(SelectLoopPairsTest, SeveralOfASourceAreSpread) {
   EXPECT_EQ(Select(data, options).tasks.size(), num_loops);
 }
 
-// Where the world's origin is changes no pair.
+// The location of the world's origin does not change the pairs.
 TEST(SelectLoopPairsTest, WorldDoesNotMatter) {
   const SequenceData data = Rounds(700, 30.0, 0.7);
   SequenceData moved = data;
@@ -405,7 +405,8 @@ PairTask RandomTask(std::uint64_t seed) {
   return task;
 }
 
-// What a turned scan is moved by, and what an INS on it would say.
+// The motion of a rotated scan, and the attitude that an INS on it would
+// measure.
 TEST(AddYawTest, TurnedPointsGoWhereTheOthersWent) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const PairTask task = RandomTask(seed);
@@ -471,7 +472,8 @@ TEST(MeasureTiltsTest, SplitsARotationIntoYawAndTheRest) {
   EXPECT_THAT(tilts[0].yaw, IsAngleNear(yaw, 1e-12));
   EXPECT_NEAR(tilts[0].pitch, pitch, 1e-12);
   EXPECT_NEAR(tilts[0].roll, roll, 1e-12);
-  // Of two small turns about perpendicular axes; exactly, by quaternions.
+  // The rotation of two small rotations about perpendicular axes; exact, with
+  // quaternions.
   EXPECT_NEAR(tilts[0].tilt,
               2.0 * std::acos(std::cos(pitch / 2) * std::cos(roll / 2)),
               1e-9);
@@ -525,7 +527,7 @@ TEST(ProblemFamiliesTest, ProblemsAreAsTheirBinSays) {
         (problem.target - problem.true_target_from_source.Apply(problem.source))
             .colwise()
             .norm();
-    // Four sigma are past c at the loudest noise alone.
+    // Only at the largest noise do four sigma exceed c.
     const auto num_true = static_cast<double>(
         (errors.array() < 1.6 * options.noise_bound).count());
     int number = 0;
@@ -575,9 +577,9 @@ TEST(ProblemFamiliesTest, SeedsMakeOtherProblemsAndBadOptionsAreTold) {
   bad.families = {"noise", "magic"};
   expect_refused(bad, "no family magic");
   bad.families = {"noise", "noise"};
-  expect_refused(bad, "noise comes twice");
+  expect_refused(bad, "noise is listed twice");
   bad.families = {};
-  expect_refused(bad, "no family is named");
+  expect_refused(bad, "there is no family");
   bad = options;
   bad.num_problems = 0;
   expect_refused(bad, "num_problems = 0");

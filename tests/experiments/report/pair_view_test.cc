@@ -179,7 +179,7 @@ TEST_F(PairViewTest, CountsAreOfAllMatchesAndFallFromStageToStage) {
     EXPECT_LE(count, counts[name]) << name;
     EXPECT_GT(count, 0) << name;
   }
-  // What the stages are for.
+  // The purpose of the stages.
   EXPECT_GT(
       right["consistent"].get<double>() / counts["consistent"].get<double>(),
       right["matches"].get<double>() / counts["matches"].get<double>());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Reports of a run and of a pair, written by the programs and looked at in
+// Reports of a run and of a pair, written by the programs and tested in
 // headless Chromium.
 //   node report_browser_test.mjs BIN_FOLDER CHROMIUM
 
@@ -18,17 +18,18 @@ import {Browser} from '../../support/browser.mjs';
 
 const [bin, chromium] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), 'quatro-report-'));
-// Of a set and a file: an element and a script if it were taken for HTML.
+// The name of a set and a file, which would be an element and a script if
+// interpreted as HTML.
 const EVIL = `<img src=x onerror=document.title='evil'>&"'`;
 
-// Uniform in [0, 1), always the same.
+// Uniform in [0, 1), with a fixed sequence.
 let state = 1;
 function uniform() {
   state = (state * 48271) % 2147483647;
   return state / 2147483647;
 }
 
-// Floor and walls of a room of 24 x 16 x 6 m, not about its middle.
+// Floor and walls of a room of 24 x 16 x 6 m, not centered at the origin.
 function room() {
   return Array.from({length: 3000}, (_, i) => {
     const point = [24 * uniform() - 12, 16 * uniform() - 8, 6 * uniform() - 3];
@@ -43,7 +44,7 @@ function writeCloud(name, points) {
   writeFileSync(join(folder, name), Buffer.from(new Float32Array(points.flatMap((p) => [...p, 0])).buffer));
 }
 
-// Scans of the room from (0.8, -0.5, 0.1), turned by 0.4 rad, and from the
+// Scans of the room from (0.8, -0.5, 0.1), rotated by 0.4 rad, and from the
 // origin.
 function writePairs() {
   const target = room();
@@ -70,7 +71,7 @@ function run(program, args, codes = [0]) {
   assert.ok(codes.includes(status), `${program}: exit code ${status}\n${stderr}`);
 }
 
-// Who outlives which stage; 102 of 255 is a weight of 0.4.
+// The stages that each match passes; 102 of 255 is a weight of 0.4.
 function checkStages() {
   const stages = {fate: [0, CONSISTENT, CONSISTENT | INLIER, INLIER], weight: [0, 102, 255, 0],
                   counts: {consistent: 2}};
@@ -82,7 +83,7 @@ function checkStages() {
   assert.equal(roleOf(stages, 3, 1).weight, 0.4);
 }
 
-// The pose drawn takes the agreeing matches of the page's pair to each other.
+// The drawn pose aligns the inliers of the page's pair.
 function checkPose(page) {
   const json = readFileSync(page, 'utf8').match(/id="view-0">(.*?)<\/script>/s)[1];
   const view = decodeView(JSON.parse(json));
@@ -105,13 +106,13 @@ async function lookAtRun(browser) {
     section.id = section.querySelector('h2').textContent.toLowerCase().replaceAll(' ', '-');
   })`);
 
-  // Text stays text.
+  // Text is not interpreted as HTML.
   assert.notEqual(await browser.evaluate('document.title'), 'evil');
   assert.ok((await browser.evaluate('document.body.textContent')).includes(EVIL));
   assert.equal(await browser.evaluate(`document.querySelectorAll('img[src="x"]').length`), 0);
 
-  // The summary has both methods; a click sorts the pairs, a second one the
-  // other way round.
+  // The summary has both methods. A click sorts the pairs, a second click
+  // reverses the order.
   assert.ok((await rowsOf('#summary')).some(([method]) => method === 'ransac1k'));
   const headers = await browser.evaluate(`[...document.querySelectorAll('#pairs thead th')].map((h) => h.innerText)`);
   const column = headers.findIndex((name) => name.startsWith('t error'));
@@ -126,7 +127,7 @@ async function lookAtRun(browser) {
   await browser.evaluate(click);
   assert.deepEqual(await errors(), [...ascending].reverse());
 
-  // The failed ones are those of the pair whose truth is another.
+  // The failed rows belong to the pair with another true pose.
   await browser.evaluate(`(() => {
     const outcome = document.querySelector('select[aria-label="outcome"]');
     outcome.value = 'failed';
@@ -141,13 +142,14 @@ async function lookAtRun(browser) {
     outcome.dispatchEvent(new Event('change'));
   })()`);
 
-  // The pointer over a curve tells a value of each method.
+  // The pointer over a curve shows a value for each method.
   const curve = await browser.box('.curve');
   await browser.mouse('mouseMoved', curve.x + 0.7 * curve.width, curve.y + 0.5 * curve.height);
   await browser.until(`/at [\\d.]+ m: .*quatro [\\d.]+ %.*ransac1k [\\d.]+ %/s.test(
       document.querySelector('.recall .legend').textContent)`);
 
-  // Nothing is in 3D until a pair is opened, and one without a view stays shut.
+  // There is no 3D view until a pair is opened, and a pair without a view
+  // cannot be opened.
   assert.equal(await browser.evaluate(`document.querySelector('.panel').hidden`), true);
   assert.equal(await browser.evaluate(`document.querySelectorAll('tr.has-view').length`), 6);
   await browser.evaluate(`document.querySelector('#pairs .table tbody tr:not(.has-view)').click()`);
@@ -157,9 +159,9 @@ async function lookAtRun(browser) {
   assert.equal(await browser.evaluate(`document.querySelector('.panel').hidden`), false);
 }
 
-// The view draws, turns, and shows each stage and pose as something else.
+// The view draws, rotates, and shows each stage and pose differently.
 async function lookAtView(browser) {
-  // Once nothing moves any more.
+  // Waits until the view stops moving.
   const still = async () => {
     let last = null;
     for (let i = 0; i < 40; ++i) {
@@ -187,10 +189,10 @@ async function lookAtView(browser) {
     pictures.set(picture, `stage ${stage}`);
     legends.push(await browser.evaluate(`document.querySelector('.viewer .legend').textContent`));
   }
-  assert.match(legends[0], /in all/);
+  assert.match(legends[0], /matches in total/);
   assert.match(legends[1], /kept.*rejected.*in the clique/);
   assert.match(legends[2], /weight 0/);
-  assert.match(legends[3], /kept.*agree with the pose/);
+  assert.match(legends[3], /kept.*inliers of the pose/);
   await browser.key(' ');
   assert.ok(!pictures.has(await still()), 'after looks like before');
   assert.equal(await browser.evaluate(`document.querySelector('[data-pose=after]').ariaPressed`), 'true');
@@ -208,7 +210,7 @@ async function look(page, ...looks) {
   console.log(`${page.split('/').pop()}: ${Date.now() - begin} ms`);
 }
 
-// Without WebGL all is there but the view.
+// Without WebGL everything except the view is shown.
 async function lookWithoutWebgl(page) {
   const browser = await Browser.open(chromium, pathToFileURL(page).href, ['--disable-3d-apis']);
   try {

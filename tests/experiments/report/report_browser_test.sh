@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# report_browser_test.mjs, or 77 (skipped) where something it needs is missing.
+# Runs report_browser_test.mjs, or exits with 77 (skipped) if a requirement is
+# missing.
 #   report_browser_test.sh BIN_FOLDER
 set -euo pipefail
 bin=$(realpath "$1")

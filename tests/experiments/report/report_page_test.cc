@@ -73,7 +73,7 @@ TEST(ReportPage, TextOfDataIsNoHtml) {
   report.views = {{kEvil, R"({"pair":"</script><!--"})"}};
   report.figures = {{kEvil, "png"}};
   const std::string page = FormatReportPage(report, kTemplate);
-  // The ends of the title and of the one view.
+  // The ends of the title and of the only view.
   std::size_t num_tags = 0;
   for (std::size_t at = page.find('<'); at != std::string::npos;
        at = page.find('<', at + 1)) {

@@ -1,5 +1,5 @@
-# Fails unless runner/commit.cmake writes "unknown" where there is no clone, and
-# leaves a header alone that says so already.
+# Fails unless runner/commit.cmake writes "unknown" outside of a clone, and does
+# not modify a header that already says so.
 #   cmake -DROOT=. -DFOLDER=scratch -P tests/experiments/runner/commit_test.cmake
 set(header "${FOLDER}/commit_text.h")
 file(REMOVE_RECURSE "${FOLDER}")
@@ -16,7 +16,7 @@ function(expect_commit source pattern)
 endfunction()
 
 expect_commit("${ROOT}" "unknown|[0-9a-f]+(-dirty)?")
-# Below a clone, if FOLDER is, or below nothing.
+# Inside a clone if FOLDER is in one, or else outside of any.
 expect_commit("${FOLDER}/unpacked" "unknown")
 file(TIMESTAMP "${header}" before "%s")
 execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 1.1)

@@ -103,7 +103,7 @@ TEST(Manifest, WhatIsMissingOrOfAnotherTypeIsNamed) {
   EXPECT_EQ(error, "flags.pre??set must be text");
   for (const char* const text : {"", "[]", "{", "3"}) {
     EXPECT_FALSE(ParseManifest(text, &error));
-    EXPECT_EQ(error, "is no JSON object");
+    EXPECT_EQ(error, "is not a JSON object");
   }
 }
 
@@ -180,15 +180,15 @@ TEST_F(DataChecksumTest, DependsOnNamesSizesAndLists) {
         .checksum;
   };
   EXPECT_EQ(checksum("one"), summary.checksum);
-  // Elsewhere, it is the same data.
+  // The data are the same in another folder.
   Fill("two");
   EXPECT_EQ(checksum("two"), summary.checksum);
-  // A scan of the same size is taken for the same.
+  // A scan of the same size is considered equal.
   Write("two/a.bin", "4321");
   EXPECT_EQ(checksum("two"), summary.checksum);
   Write("two/a.bin", "43215");
   EXPECT_NE(checksum("two"), summary.checksum);
-  // A list is not.
+  // A list of the same size is not.
   Fill("two");
   Write("two/poses.txt", "1 0 1");
   EXPECT_NE(checksum("two"), summary.checksum);

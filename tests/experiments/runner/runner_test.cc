@@ -52,7 +52,7 @@ class RunFolderTest : public ProgramTest {
     return RunFolder::Open(Folder(), kTwoMethods, &error_);
   }
 
-  // A folder with pairs a and b.
+  // A folder with the pairs a and b.
   void MakeTwoPairs() {
     const auto folder = Open();
     ASSERT_TRUE(folder) << error_;
@@ -105,7 +105,7 @@ TEST_F(RunFolderTest, ResultsAreInTheOrderOfTheTasks) {
   EXPECT_THAT(error_, HasSubstr("pair c is not done"));
 }
 
-// At whatever byte a kill cut the file off.
+// The file may be truncated at any byte by a kill.
 TEST_F(RunFolderTest, APairThatIsNotWholeIsTakenOff) {
   MakeTwoPairs();
   const std::string rows = Folder() + "/rows.csv";
@@ -139,7 +139,7 @@ TEST_F(RunFolderTest, AViewIsThereOnceItsPairIs) {
   ASSERT_TRUE(folder->Append(Results(name), "", "{}", &error_)) << error_;
   EXPECT_EQ(ReadWholeFile(ViewPath(Folder(), name), &error_), "{}");
   EXPECT_NE(ViewPath(Folder(), name), ViewPath(Folder(), name + "c"));
-  // A view that can't be kept leaves its pair undone.
+  // If a view cannot be stored, its pair is not completed.
   std::filesystem::remove_all(Folder() + "/views");
   std::ofstream(Folder() + "/views") << "in the way";
   EXPECT_FALSE(folder->Append(Results("c"), "", "{}", &error_));
@@ -340,7 +340,7 @@ TEST_F(RunTasksTest, AViewIsOfAllMethodsAndAlwaysTheSame) {
 TEST_F(RunTasksTest, TwoTasksOfOneNameAreRefused) {
   tasks_[1].name = tasks_[0].name;
   EXPECT_EQ(Run({}), RunEnd::kFailed);
-  EXPECT_THAT(error_, HasSubstr("pair pair 0 comes twice"));
+  EXPECT_THAT(error_, HasSubstr("pair pair 0 is listed twice"));
 }
 
 TEST_F(RunTasksTest, AnOwnMethodStandsBesideOurs) {
@@ -374,8 +374,8 @@ TEST_F(RunTasksTest, AnOwnMethodStandsBesideOurs) {
   EXPECT_EQ(results[2].target_from_source->ToMatrix(), anywhere.ToMatrix());
 }
 
-// Matched points in place of scans: of `true_target_from_source` all true, but
-// every tenth.
+// Matched points instead of scans, under `true_target_from_source`; all are
+// inliers except every tenth.
 PairTask ProblemTask(const Rigid3& true_target_from_source) {
   PairTask task;
   task.name = "points";
@@ -450,7 +450,7 @@ TEST(RunProblemTest, MethodsThatNeedMoreThanMatchesAreRefused) {
   EXPECT_THAT(error, HasSubstr("quatro_ins needs an INS"));
   methods.names = {"quatro", "quatro"};
   EXPECT_FALSE(CanRunProblems(methods, &error));
-  EXPECT_THAT(error, HasSubstr("comes twice"));
+  EXPECT_THAT(error, HasSubstr("is listed twice"));
 }
 
 TEST(RunMethodsTest, AnOwnNameIsKnownUnlessItIsOneOfOurs) {
@@ -475,7 +475,7 @@ TEST(RunMethodsTest, NamesAreOfTheRegistryAndComeOnce) {
   EXPECT_TRUE(methods.IsValid(&error)) << error;
   methods.names = {"quatro", "quatro"};
   EXPECT_FALSE(methods.IsValid(&error));
-  EXPECT_THAT(error, HasSubstr("comes twice"));
+  EXPECT_THAT(error, HasSubstr("is listed twice"));
   methods.names = {"aloam"};
   EXPECT_FALSE(methods.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("odometry"));

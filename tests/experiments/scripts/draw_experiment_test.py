@@ -103,7 +103,7 @@ class DrawExperimentTest(unittest.TestCase):
         tilts.write_text("set,source,target,yaw_deg,rollpitch_deg\n00,7,3,-170,1\n",
                          encoding="utf-8")
         self.assertEqual([file.name for file in self.draw()], ["tilt.pdf", "tilt.png"])
-        self.write(text_of(ROWS))  # Results come first.
+        self.write(text_of(ROWS))  # results.csv takes precedence.
         self.assertIn("recall.pdf", [file.name for file in self.draw()])
 
     def test_bad_input_is_one_line_and_exit_code_2(self):
@@ -130,9 +130,9 @@ class DrawExperimentTest(unittest.TestCase):
         self.write(text_of([row()]) + "a,b\n")
         self.expect_refused("line 3 must have 12 columns")
         self.write(text_of([row(error=None, translation_error_m="1")]))
-        self.expect_refused("line 2 has one error of two")
+        self.expect_refused("line 2 has only one of two errors")
         self.write(text_of(ROWS))
-        self.expect_refused("there is no 'pie'", "--figures=success,pie")
+        self.expect_refused("'pie' is not one of", "--figures=success,pie")
         for limit in ("2", "2/", "2/-1", "1/2/3"):
             self.expect_refused("must be like 2/10", "--limit=" + limit)
         self.expect_refused("results.csv: File exists",

@@ -56,10 +56,10 @@ class DrawScriptsTest(unittest.TestCase):
         for script, text, problem in (
                 (draw_surrogates, "mu,residual,loss\n", "there are no curves"),
                 (draw_surrogates, "mu,residual,loss\n1,2\n", "line 2 must have 3 columns"),
-                (draw_surrogates, "mu,residual,loss\nx,2,3\n", "line 2 is not of"),
+                (draw_surrogates, "mu,residual,loss\nx,2,3\n", "line 2 is not from"),
                 (draw_wrong_loops, LOOPS, "there are no lines"),
-                (draw_wrong_loops, LOOPS + "w,1,1,gnc,0.1,1,0,1\n", "line 2 is not of"),
-                (draw_wrong_loops, LOOPS + "w,1,1,other,0.1,1,1,1\n", "line 2 is not of")):
+                (draw_wrong_loops, LOOPS + "w,1,1,gnc,0.1,1,0,1\n", "line 2 is not from"),
+                (draw_wrong_loops, LOOPS + "w,1,1,other,0.1,1,1,1\n", "line 2 is not from")):
             self.expect_refused(problem, script, self.table(text), self.picture)
 
     def test_bad_pictures_are_told_first(self):
@@ -67,7 +67,7 @@ class DrawScriptsTest(unittest.TestCase):
             table = self.table("")
             self.expect_refused("there is no folder", script, table, self.folder / "no/x.png")
             for name in ("x.xyz", "x"):
-                self.expect_refused("name ends with", script, table, self.folder / name)
+                self.expect_refused("must end with", script, table, self.folder / name)
             self.expect_refused("would be overwritten", script, table, table)
 
     def test_good_tables_are_drawn(self):
@@ -94,7 +94,7 @@ class DrawScriptsTest(unittest.TestCase):
 
     def test_bad_data_of_a_registration_are_told(self):
         for content in ("", "[]", "{}", b"\xff"):
-            self.assertIn("is not of quatro_register --picture",
+            self.assertIn("was not written by quatro_register --picture",
                           draw_registration.main([self.table(content), str(self.picture)]))
         self.assertIn("No such file", draw_registration.main(["none.json", str(self.picture)]))
 

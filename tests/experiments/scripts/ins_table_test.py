@@ -16,8 +16,9 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[3] / "experiments" / "scripts"
 sys.path.insert(0, str(SCRIPT.parent))
 import ins_table  # noqa: E402
 
-# Answers the tilt of the source's attitude; the identity without an INS, a yaw
-# of 2 deg with the polish, and of --ins_std_deg with the fusion. None for b.bin.
+# Answers with the tilt of the source's attitude; the identity without an INS,
+# with a yaw of 2 deg for the polish, and of --ins_std_deg for fused. None for
+# b.bin.
 STAND_IN = """#!/usr/bin/env python3
 import json, sys
 sys.path.insert(0, {folder!r})
@@ -83,7 +84,7 @@ class InsTableTest(unittest.TestCase):
         self.assertIn(why, run.stderr)
 
     def test_relative_rotation_is_the_sources_attitude(self):
-        half = math.radians(5.5)  # Off by 1 deg.
+        half = math.radians(5.5)  # An error of 1 deg.
         ins = self.write("ins.csv", "source,target,qx,qy,qz,qw\n"
                          f"a.bin,t.bin,{math.sin(half)!r},0,0,{math.cos(half)!r}\n"
                          f"b.bin,t.bin,{self.quaternion}\n")
@@ -99,7 +100,7 @@ class InsTableTest(unittest.TestCase):
         self.assertEqual(table["**largest**"][:3], ["1.00", "1.00", "10.00"])
 
     def test_attitudes_may_be_in_the_list_of_pairs(self):
-        # Both in a world turned by 30 deg: the relative rotation is right.
+        # Both in a world rotated by 30 deg: the relative rotation is correct.
         text = "source,target,tx,ty,tz,qx,qy,qz,qw,source_rpy_deg,target_rpy_deg,ins_std_deg\n"
         pairs = self.write("own.csv", text +
                            f'a.bin,t.bin,0,0,0,{self.quaternion},"10,0,30","0,0,30",3\n')
@@ -133,15 +134,15 @@ class InsTableTest(unittest.TestCase):
         self.expect_refused("ins.csv: line 2", "the quaternion has length 1.41421", pairs,
                             f"--ins={ins}")
         ins = self.write("ins.csv", "source,target,qx,qy,qz,qw\nx.bin,t.bin,0,0,0,1\n")
-        self.expect_refused("ins.csv", "has none of the pairs", pairs, f"--ins={ins}")
+        self.expect_refused("ins.csv", "contains none of the pairs", pairs, f"--ins={ins}")
         ins = self.write("ins.csv", "source,target\n")
-        self.expect_refused("ins.csv", "there are no columns", pairs, f"--ins={ins}")
+        self.expect_refused("ins.csv", "has no columns", pairs, f"--ins={ins}")
         self.expect_refused("none.csv", "No such file", pairs, "--ins=none.csv")
         for flag in ("--polish=on", "--ins_mode=fused", "--gravity=1,0,0"):
-            self.expect_refused(flag, "is not for this table", pairs, f"--ins={ins}", "--", flag)
+            self.expect_refused(flag, "cannot be used here", pairs, f"--ins={ins}", "--", flag)
         ins = self.write("ins.csv", "source,target,qx,qy,qz,qw,ins_std_deg\n"
                          f"a.bin,t.bin,{self.quaternion},1\n")
-        self.expect_refused("--ins_std_deg=2", "has a column of it", pairs, f"--ins={ins}", "--",
+        self.expect_refused("--ins_std_deg=2", "has a column for it", pairs, f"--ins={ins}", "--",
                             "--ins_std_deg=2")
         no_pose = self.write("no_pose.csv", "source,target\na.bin,t.bin\n")
         self.expect_refused("no_pose.csv", "has no pose", f"--pairs={no_pose}", f"--ins={ins}")

@@ -24,8 +24,8 @@ import list_wrong_pairs  # noqa: E402
 import run_pairs  # noqa: E402
 
 # Registers sources named a*; counts its calls; stops the run at c.bin if there
-# is a file "stop" beside it, waits for a file "go" if there is one "wait".
-# --method=half is off by 5 m.
+# is a file "stop" beside it, and waits for a file "go" if there is a file
+# "wait". --method=half has an error of 5 m.
 STAND_IN = """#!/usr/bin/env python3
 import json, os, pathlib, sys, time
 if sys.argv[1:] == ["--list_methods"]:
@@ -181,7 +181,7 @@ class PairScriptsTest(unittest.TestCase):
                 end = time.monotonic() + 60.0
                 while not (self.folder / "calls").exists() and time.monotonic() < end:
                     time.sleep(0.01)
-                self.expect_refused("out.csv.part: another process works here", "run_pairs.py",
+                self.expect_refused("out.csv.part: another process is using this file", "run_pairs.py",
                                     *args)
             finally:
                 self.write("go", "")
@@ -195,10 +195,10 @@ class PairScriptsTest(unittest.TestCase):
         self.expect_refused("unknown flag", "run_pairs.py", f"--program={self.folder}/program",
                             f"--pairs={self.pairs}", "--output=out.csv")
         self.assertFalse((self.folder / "out.csv.part").exists())
-        # Nor does one that was killed first stand in the way.
+        # A killed process does not block the run either.
         self.write("out.csv.part", '["/another run"]\n')
         self.assertEqual(self.run_pairs().returncode, 0)
-        # What is no such file is left alone.
+        # Unrelated files are left alone.
         self.write("out.csv.part", "mine")
         self.assertEqual(self.run_pairs().returncode, 2)
         self.assertEqual((self.folder / "out.csv.part").read_text(), "mine")
@@ -224,10 +224,10 @@ class PairScriptsTest(unittest.TestCase):
 
     def test_only_methods_that_there_are_name_files(self):
         for methods in ("../x", "whole,", "other"):
-            self.expect_refused("there are whole,half", "compare_methods.py",
+            self.expect_refused("is not one of whole,half", "compare_methods.py",
                                 f"--program={self.program}", f"--pairs={self.pairs}",
                                 f"--methods={methods}", "--output=out")
-        self.expect_refused("does not tell its --list_methods", "compare_methods.py",
+        self.expect_refused("did not list its methods", "compare_methods.py",
                             "--program=/bin/false", f"--pairs={self.pairs}", "--methods=whole")
         self.assertFalse((self.folder / "calls").exists())
         self.assertFalse((self.folder / "out").exists())
@@ -243,9 +243,9 @@ class PairScriptsTest(unittest.TestCase):
         lines = good.splitlines(keepends=True)
         for text, problem in (("", "there is no column set"),
                               ("set,source\none,a.bin\n", "there is no column target"),
-                              ("".join(lines[:-1]), "does not hold the results of the pairs"),
-                              ("".join(lines[:2] + lines[1:3]), "does not hold the results"),
-                              (good.replace("0.0000", "x"), "does not hold the results"),
+                              ("".join(lines[:-1]), "does not contain the results of the pairs"),
+                              ("".join(lines[:2] + lines[1:3]), "does not contain the results"),
+                              (good.replace("0.0000", "x"), "does not contain the results"),
                               (good.replace("registered,", "\0,"), "whole.csv: ")):
             path.write_text(text)
             self.expect_refused(problem, "compare_methods.py", *args)
@@ -262,7 +262,7 @@ class PairScriptsTest(unittest.TestCase):
                                        "0.00 / 0.00"])
         self.assertEqual(rows[2][8:10], ["5.0", "1.0"])
         self.assertEqual(rows[3][:7], ["half", "1", "0", "0", "0", "1", "- / -"])
-        # Again: from what is there, unless the flags are others.
+        # A second run resumes, unless the flags differ.
         num_calls = len(self.calls())
         self.assertEqual(self.run_script(*args).stdout, run.stdout)
         self.assertEqual(len(self.calls()), num_calls)
@@ -277,7 +277,8 @@ class PairScriptsTest(unittest.TestCase):
                                f"--pairs={self.pairs}", *outside, *flags)
 
     def test_results_of_other_programs_enter_the_table(self):
-        # a is 3 cm off by 12 numbers, b turned by 90 deg by 16; c shares no place with t.
+        # a has an error of 3 cm and 12 numbers, b is rotated by 90 deg with 16
+        # numbers; c has no overlap with t.
         turned = "0,-1,0,0,1,0,0,0,0,0,1,0,0,0,0,1"
         a = "a.bin,t.bin,1,0,0,0.03,0,1,0,0,0,0,1,0\n"
         run = self.compare_outside(
@@ -289,9 +290,9 @@ class PairScriptsTest(unittest.TestCase):
         self.assertEqual([row[0] for row in rows[2:]], ["whole", "other0", "other1"])
         self.assertEqual(rows[3][1:], ["3", "1", "1", "1", "2", "0.030 / 0.030", "0.00 / 0.00",
                                        "-", "-", "-"])
-        # What is left out is no answer, and neither right nor wrong.
+        # A missing pair has no answer and is neither correct nor incorrect.
         self.assertEqual(rows[4][1:6], ["1", "1", "1", "1", "0"])
-        # A file of all pairs serves a part of them.
+        # A file with all pairs also works for some of them.
         part = self.compare_outside(a + f"c.bin,t.bin,{turned}\n", flags=["--exclude=two"])
         self.assertEqual(part.returncode, 0, part.stderr)
         self.assertIn("| other0 | 1 | 1 | 1 | 1 | 0 |", part.stdout)
@@ -300,9 +301,9 @@ class PairScriptsTest(unittest.TestCase):
         good = "a.bin,t.bin,1,0,0,0,0,1,0,0,0,0,1,0"
         for text, problem in (
                 ("", "there are no pairs"),
-                (f"{good}\n\n{good}\n", "line 3: the pair a.bin,t.bin was there before"),
-                ("t.bin,a.bin" + good[11:], "line 1: no pair t.bin,a.bin is in the list"),
-                ("0" + good[11:], "line 1: no pair 0,1 is in the list"),
+                (f"{good}\n\n{good}\n", "line 3: the pair a.bin,t.bin is listed twice"),
+                ("t.bin,a.bin" + good[11:], "line 1: pair t.bin,a.bin is not in the list"),
+                ("0" + good[11:], "line 1: pair 0,1 is not in the list"),
                 (good + ",0", "line 1 has 13 numbers after source and target, must have 12 or 16"),
                 ("a.bin,t.bin", "line 1 has 0 numbers"),
                 (good[:-1] + "nan", "line 1 number 12: 'nan' is not finite"),
@@ -316,7 +317,7 @@ class PairScriptsTest(unittest.TestCase):
             self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
             self.assertIn("other1.csv: ", run.stderr)
             self.assertIn(problem, run.stderr)
-        # Six digits are enough of a rotation.
+        # Six digits suffice for a rotation.
         rounded = "a.bin,t.bin,0.707107,-0.707107,0,0,0.707107,0.707107,0,0,0,0,1,0"
         self.assertEqual(self.compare_outside(rounded).returncode, 0)
         for flag, problem in (("x.csv", "must be NAME=FILE.csv"), ("n=no.csv", "no.csv: No such")):
@@ -381,7 +382,7 @@ class CalibrationTest(unittest.TestCase):
         import numpy as np
         random = np.random.default_rng(1)
         x = random.uniform(0.0, 1.0, (20000, 3))
-        # The third speaks against: its weight is held at 0.
+        # The third feature has the opposite sign, so its weight is fixed at 0.
         truth = np.array([-3.0, 4.0, 2.0, -0.5])
         p = 1.0 / (1.0 + np.exp(-(truth[0] + x @ truth[1:])))
         y = (random.uniform(size=len(p)) < p).astype(float)
@@ -389,7 +390,7 @@ class CalibrationTest(unittest.TestCase):
         self.assertEqual(w[3], 0.0)
         self.assertAlmostEqual(w[1], 4.0, delta=0.25)
         self.assertAlmostEqual(w[2], 2.0, delta=0.25)
-        # At the minimum the fitted rates are the seen ones.
+        # At the minimum the fitted rates equal the observed ones.
         fitted = self.calibration.probability(w, x)
         self.assertAlmostEqual(fitted.mean(), y.mean(), places=6)
 
@@ -438,7 +439,7 @@ class CompareKittiTest(unittest.TestCase):
         self.assertEqual(translation, [3, 0, 0])
 
     def test_pairs_are_like_their_models_where_there_are_such(self):
-        # Six frames 1 m apart, the last one turned by 90 deg.
+        # Six frames 1 m apart, the last one rotated by 90 deg.
         headings = [0.0] * 5 + [math.pi / 2.0]
         candidates = [(i, j, float(j - i)) for i in range(6) for j in range(i + 1, 6)]
         drawn = compare_kitti.draw_like(candidates, [(1.2, 0.1), (3.9, 1.5)], headings, 4,

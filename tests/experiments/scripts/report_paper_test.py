@@ -67,10 +67,10 @@ class ReportPaperTest(unittest.TestCase):
                    "c,quatro,,,0\nc,teaser,,,0\n"
                    "d,quatro,1,1,14\nd,teaser,1,1,14\n")
         page = self.run_script().stdout
-        self.assertIn("12 matches of a pair are consistent, in the median. Quatro misses 2 of 4",
+        self.assertIn("the median pair has 12 consistent matches. Quatro misses 2 of 4",
                       page)
-        self.assertIn("teaser is right on 1 of the pairs that Quatro misses, and misses 1 that", page)
-        self.assertNotIn("fgr is right", page)
+        self.assertIn("teaser is correct on 1 of the pairs that Quatro misses, and misses 1 that", page)
+        self.assertNotIn("fgr is correct", page)
 
     def test_drift_at_five_may_be_better(self):
         for five, expected in (("0.10", "holds"), ("0.75", "holds"), ("0.76", "does not hold")):
@@ -96,7 +96,7 @@ class ReportPaperTest(unittest.TestCase):
         run = self.run_script()
         self.assertEqual(run.returncode, 2)
         self.assertEqual(run.stderr.count("\n"), 1)
-        self.assertIn("holds none of the runs", run.stderr)
+        self.assertIn("contains none of the runs", run.stderr)
 
     def test_what_is_not_of_an_experiment_is_told_in_one_line(self):
         self.write("table_one/tables/table_one.csv", TABLE_ONE.format(quatro="99.50"))

@@ -33,7 +33,8 @@ class ScriptSupportTest(unittest.TestCase):
         return str(caught.exception)
 
     def test_rows_know_their_lines(self):
-        # As a spreadsheet writes it: with a mark in front and \r\n; an empty line is none.
+        # As written by a spreadsheet: with a byte order mark and \r
+        # ; empty lines are ignored.
         rows, names = support.read_rows(self.write(b"\xef\xbb\xbfa,b\r\n1,2\r\n\r\n3,\r\n"), ("a",))
         self.assertEqual(names, ["a", "b"])
         self.assertEqual(rows, [(2, {"a": "1", "b": "2"}), (4, {"a": "3", "b": ""})])

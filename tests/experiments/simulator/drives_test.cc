@@ -42,8 +42,8 @@ double HeadingBetween(const Rigid3& a, const Rigid3& b) {
   return Yaw(a.rotation.transpose() * b.rotation);
 }
 
-// How often a place is come by again, 20 frames later or more, the same way
-// and the other way.
+// Counts how often a place is revisited, at least 20 frames later, in the same
+// and in the opposite direction.
 struct Revisits {
   int same = 0, opposite = 0;
 };
@@ -129,9 +129,9 @@ TEST(MakeDriveTest, HillsAreInTheTiltOfTheCar) {
   EXPECT_LT(steepest, 15.0 * kDegree);
 }
 
-// Median of the distances of the source's points, moved onto
-// the target, to planes through the target's three closest [m]; of those points
-// where the three are close and not in a line.
+// Median distance [m] of the source's points, moved onto the target, to the
+// planes through the target's three closest points, if these are close and not
+// collinear.
 double PlaneResidual(const PointCloud& source,
                      const PointCloud& target,
                      const Rigid3& target_from_source) {
@@ -189,7 +189,7 @@ TEST(MakeDriveTest, OtherCarsMove) {
   const Scene start = drive.moving(0), later = drive.moving(4);
   ASSERT_GT(start.vertices.size(), 500u);
   ASSERT_EQ(start.vertices.size(), later.vertices.size());
-  // 4 to 12 m/s for 0.4 s, unless its street ends.
+  // 4 to 12 m/s for 0.4 s, unless the street ends.
   int num_moved = 0;
   for (size_t i = 0; i < start.vertices.size(); ++i) {
     const float moved = (start.vertices[i] - later.vertices[i]).norm();
@@ -275,7 +275,7 @@ TEST(FormatOxtsTest, ThirtyNumbersInTheOrderOfKitti) {
   EXPECT_GT(values[8], 8.9);  // Nearly along the heading.
   EXPECT_NEAR(std::hypot(values[11], values[12], values[13]), 9.81, 1e-6);
   EXPECT_NEAR(values[16], 9.81, 1e-9);
-  // The projection of KITTI's development kit takes the position back.
+  // Inverts the projection of KITTI's development kit.
   const auto project = [](double latitude, double longitude) {
     const double scale = std::cos(49.0 * kDegree), earth = 6378137.0;
     return Eigen::Vector2d(
@@ -301,7 +301,7 @@ TEST(SweepTest, PointsStayInTheFrameOfTheirMoment) {
   const PointCloud cloud = wall->Scan(Rigid3(), options, ScanId(), 1, sweep);
   ASSERT_GT(cloud.points.cols(), 1000);
   for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
-    // The turn begins ahead and goes to the right.
+    // The revolution starts ahead and goes to the right.
     const double azimuth = std::atan2(cloud.points(1, i), cloud.points(0, i));
     const double fraction =
         azimuth <= 0.0 ? -azimuth / (2.0 * M_PI) : 1.0 - azimuth / (2.0 * M_PI);

@@ -42,7 +42,8 @@ SetPair Simulate(const PairSetOptions& options, int index) {
   return pair.value_or(SetPair());
 }
 
-// Share of the source's points, moved by `pose`, within 0.1 m of a target's.
+// Share of the source's points, moved by `pose`, within 0.1 m of a target
+// point.
 double ShareThatFits(const SetPair& pair, const Rigid3& pose) {
   const KdTree target(pair.target.points);
   int num_points = 0, num_close = 0;
@@ -127,7 +128,7 @@ TEST(SimulateSetPairTest, PairsWithoutOverlapAreOfDifferentPlaces) {
       EXPECT_GT(pair.source.points.cols(), 10000) << name;
       apart.push_back(pair.apart);
       if (pair.apart == "far_apart") {
-        // Out of each other's range and a range more.
+        // Beyond each other's range, plus one more range.
         EXPECT_GT((pair.world_from_source.translation -
                    pair.world_from_target.translation)
                       .norm(),
@@ -242,11 +243,11 @@ TEST_F(WritePairSetsTest, OtherOptionsAndOtherFoldersAreRefused) {
   ASSERT_TRUE(Write(folder_, 1)) << error_;
   sets_[0].seed = 2;
   EXPECT_FALSE(Write(folder_, 1));
-  EXPECT_THAT(error_, HasSubstr("pairs of other options"));
+  EXPECT_THAT(error_, HasSubstr("contains pairs with other options"));
   fs::create_directories(other_);
   std::ofstream(other_ / "thesis.tex") << "text";
   EXPECT_FALSE(Write(other_, 1));
-  EXPECT_THAT(error_, HasSubstr("no folder of pairs"));
+  EXPECT_THAT(error_, HasSubstr("not a folder of pairs"));
   sets_.push_back(sets_[0]);
   EXPECT_FALSE(Write(folder_, 1));
   EXPECT_THAT(error_, HasSubstr("two sets have the name hall"));

@@ -42,8 +42,8 @@ SimulatedPair MakePair(const SimulatePairOptions& options) {
   return pair.value_or(SimulatedPair());
 }
 
-// Median distance of source points near the middle of both scans to the
-// closest target point [m].
+// Median distance of source points near the center of both scans to the closest
+// target point [m].
 double MedianGap(const SimulatedPair& pair, const Rigid3& target_from_source) {
   const KdTree target(pair.target.points);
   const Eigen::Vector3d middle = pair.true_target_from_source.translation / 2.0;
@@ -101,10 +101,10 @@ TEST(SimulatePairTest, MotionIsWhatTheOptionsSay) {
   EXPECT_NEAR(motion.translation.norm(),
               options.distance / std::cos(options.slope),
               0.2);
-  // What the street turns on the way comes on top.
+  // The turn of the street along the path is added.
   EXPECT_THAT(Yaw(motion.rotation), IsAngleNear(M_PI, 8.0 * kDegree));
-  // The car turns about the normal of the ground, so that an even slope is not
-  // seen from it.
+  // The car rotates about the normal of the ground, so a uniform slope is not
+  // visible from it.
   EXPECT_LT(std::acos(motion.rotation(2, 2)), 3.0 * kDegree);
   options.tilt_sigma = 8.0 * kDegree;
   const Rigid3 tilted = MakePair(options).true_target_from_source;
@@ -213,7 +213,7 @@ class SimulateSequenceTest : public ::testing::Test {
     return SimulateSequence(options_, folder_.string(), nullptr, &error_);
   }
 
-  // The 12 numbers that begin at the stream's position.
+  // The 12 numbers at the stream's position.
   static Rigid3 ReadRigid3(std::istream& stream) {
     Rigid3 transform;
     for (Eigen::Index row = 0; row < 3; ++row) {
@@ -234,7 +234,7 @@ class SimulateSequenceTest : public ::testing::Test {
   std::string error_;
 };
 
-// A pair is the sequence of two frames: one tells the truth about the other.
+// A pair equals a sequence of two frames: each has the true pose of the other.
 TEST_F(SimulateSequenceTest, FilesGiveBackTheTrueMotion) {
   ASSERT_TRUE(Simulate()) << error_;
   SimulatePairOptions pair_options;
@@ -301,7 +301,7 @@ TEST_F(SimulateSequenceTest, LeavesAFolderThatIsInUseAlone) {
 
 TEST_F(SimulateSequenceTest, ReplacesASequenceOnlyIfAsked) {
   fs::create_directories(folder_);
-  ASSERT_TRUE(Simulate()) << error_;  // An empty folder is no obstacle.
+  ASSERT_TRUE(Simulate()) << error_;  // An empty folder is allowed.
   EXPECT_FALSE(Simulate());
   options_.overwrite = true;
   options_.num_frames = 1;
@@ -346,7 +346,8 @@ TEST_F(SimulateProgramTest, StoppedItLeavesNothing) {
     const int status = std::system(command.c_str());
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 3) << flags;
-    EXPECT_THAT(Read("err.txt"), HasSubstr("stopped; nothing is left of it"));
+    EXPECT_THAT(Read("err.txt"),
+                HasSubstr("interrupted; the partial sequence was removed"));
     fs::remove(PathOf("err.txt"));
     EXPECT_THAT(Contents(), ::testing::IsEmpty());
   };
@@ -361,7 +362,7 @@ TEST_F(SimulateProgramTest, RefusesFlagsThatItWouldNotUse) {
     ExpectBadInput("quatro_simulate",
                    {"--output=" + PathOf("a"), "--protocol=" + protocol, flag},
                    flag.substr(0, flag.find('=')) +
-                       " does not go with --protocol=" + protocol,
+                       " cannot be used with --protocol=" + protocol,
                    "only with: " + protocols + "\n");
   };
   expect("sequence", "--sensor=foo", "drive, pairs");

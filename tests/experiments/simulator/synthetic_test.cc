@@ -144,7 +144,7 @@ TEST(TimProblem, LengthsAgreeAndOutliersAreTurned) {
   EXPECT_LE(difference.cwiseAbs().maxCoeff(), 0.1);
   const auto num_true = TrueOnes(problem, 0.06).size();
   EXPECT_GE(num_true, 100u);
-  EXPECT_LE(num_true, 110u);  // Some are turned by next to nothing.
+  EXPECT_LE(num_true, 110u);  // Some rotations are tiny.
 }
 
 TEST(SlopeProblem, IsTiltedAndTheInsKnowsIt) {
@@ -184,7 +184,7 @@ TEST(SlopeProblem, InsIsOffByItsStandardDeviationInEachAngle) {
   }
 }
 
-// Every problem is counted, from 1 up to all.
+// Every problem is counted, from 1 to the total.
 class ProtocolTest : public ::testing::Test {
  protected:
   Progress Count() {

@@ -68,7 +68,7 @@ TEST(MakeWorldTest, PlacesAreAsFarApartAndTurnedAsAsked) {
       options.yaw = 1.0;
       options.tilt_sigma = 0.0;
       const World world = MakeWorld(options);
-      // What is across the way comes on top.
+      // The offset across the path is added.
       EXPECT_NEAR((world.world_from_source.translation -
                    world.world_from_target.translation)
                       .norm(),
@@ -82,7 +82,7 @@ TEST(MakeWorldTest, PlacesAreAsFarApartAndTurnedAsAsked) {
   }
 }
 
-// The grade changes evenly from one end of the curve to the other.
+// The grade changes linearly from one end of the curve to the other.
 TEST(RoadTest, CurveIsAParabola) {
   RoadOptions options;
   options.undulation = 0.0;
@@ -113,20 +113,20 @@ TEST(MakeWorldTest, HillsAreAsSteepAsAsked) {
       options.yaw = 2.5;
       options.tilt = tilt;
       options.tilt_sigma = 0.0;
-      // The crown of the road and its waves are good for 2 deg.
+      // The crown of the road and its sinusoids account for 2 deg.
       EXPECT_NEAR(TiltBetween(MakeWorld(options)), tilt, 2.0 * kDegree)
           << "seed " << seed;
     }
   }
 }
 
-// The fraction of rays from the twin place that end where those from the place
-// itself do.
+// The fraction of rays from the twin place that end at the same points as those
+// from the place itself.
 double ShareThatAgrees(const World& world) {
   LidarOptions lidar = Exact(world.sensor);
-  lidar.max_range = 30.0;  // The ends of what is periodic are further away.
+  lidar.max_range = 30.0;  // The ends of the structure are farther away.
   const Rigid3& place = world.world_from_source;
-  // Of infinite range as far as misses go, so that rays correspond.
+  // Without missed echoes, so that rays correspond.
   const PointCloud here = ScanAt(world, place, lidar);
   const PointCloud there = ScanAt(world, *world.symmetry * place, lidar);
   if (here.points.cols() != there.points.cols()) return 0.0;
@@ -152,7 +152,7 @@ TEST(MakeWorldTest, TwinPlacesLookTheSame) {
       seen.insert(world.variant);
       EXPECT_GT(share, 0.99) << world.variant << ", seed " << seed;
     }
-    // And no other place does.
+    // No other place matches.
     World shifted = world;
     shifted.symmetry->translation.x() += 0.7;
     EXPECT_LT(ShareThatAgrees(shifted), 0.9) << world.variant;
@@ -178,7 +178,7 @@ TEST(MakeWorldTest, CorridorsHoldPositionByTheirFeaturesAlone) {
   }
 }
 
-// Another floor has the same walls and other things.
+// Another floor has the same walls and other objects.
 TEST(MakeWorldTest, FloorsShareTheirWalls) {
   WorldOptions options;
   options.kind = WorldKind::kHall;

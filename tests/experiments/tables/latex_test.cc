@@ -63,7 +63,7 @@ ours\_1 & 0.057 & 0.2 & -- & 1 \\
 theirs\,\textdagger & 0.1 & -- & 2 & 5 \% \\
 \bottomrule
 \end{tabular}
-\par\smallskip\footnotesize \textdagger\,Figures of the paper, on KITTI; not of this run.
+\par\smallskip\footnotesize \textdagger\,Values from the paper, on KITTI; not from this run.
 \end{table}
 )");
 }
@@ -80,8 +80,8 @@ TEST(FormatLatex, WithoutGroupsQuotesOrLabelHasNoneOfTheirLines) {
 TEST(FormatLatex, ManyColumnsAreMadeToFit) {
   Table table{{"method",
                "registered",
-               "wrong registered",
-               "only method right",
+               "false registrations",
+               "only method correct",
                "all / 2 m 10 deg",
                "all / t_avg m",
                "g",
@@ -91,10 +91,11 @@ TEST(FormatLatex, ManyColumnsAreMadeToFit) {
   const std::string latex = FormatLatex(table, {});
   EXPECT_THAT(
       latex,
-      HasSubstr("method & registered & \\shortstack[r]{wrong\\\\registered} & "
-                "\\shortstack[r]{only method\\\\right} & "
-                "\\shortstack[r]{2 m\\\\10 deg} & "
-                "\\shortstack[r]{$t_{\\mathrm{avg}}$\\\\m} & g & h & i"));
+      HasSubstr(
+          "method & registered & \\shortstack[r]{false\\\\registrations} & "
+          "\\shortstack[r]{only method\\\\correct} & "
+          "\\shortstack[r]{2 m\\\\10 deg} & "
+          "\\shortstack[r]{$t_{\\mathrm{avg}}$\\\\m} & g & h & i"));
   EXPECT_THAT(latex, HasSubstr("\\end{tabular}}\n\\end{table*}\n"));
   table.columns.resize(8);
   table.rows[0].resize(8);
@@ -113,7 +114,7 @@ TEST(FormatLatex, NothingQuotedHasNoNote) {
   EXPECT_THAT(FormatLatex(file, {}), HasSubstr("another program"));
 }
 
-// Every line of the body has as many cells as the paper's Table II has.
+// Every line of the body has as many cells as the paper's Table II.
 TEST(FormatTableTwoLatex, IsThePapersTable) {
   DriftEntry ours;
   ours.method = "quatro_c2f";
@@ -141,7 +142,7 @@ TEST(FormatTableTwoLatex, IsThePapersTable) {
   EXPECT_EQ(num_rows, 1 + 14 + 1);
 }
 
-// Narrow, wide, quoted and empty, each in both classes of a page.
+// Narrow, wide, quoted and empty tables, in both document classes.
 TEST(FormatLatex, PdflatexTakesItWithoutAnOverfullBox) {
   if (std::system("pdflatex --version >/dev/null 2>&1") != 0) {
     GTEST_SKIP() << "needs pdflatex with booktabs (texlive-latex-extra)";
@@ -150,7 +151,7 @@ TEST(FormatLatex, PdflatexTakesItWithoutAnOverfullBox) {
                      {{"ours_1", "quoted", "5 %"}, {"theirs", "file", ""}}};
   Table wide{{"method"}, {{"quatro_ins"}}};
   for (const char* const column : {"pairs",
-                                   "wrong registered",
+                                   "false registrations",
                                    "success % / 0.6 m 5 deg",
                                    "r median deg"}) {
     for (int i = 0; i < 5; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Tables of results, on results whose figures are known by hand.
+// Tables of results whose values are known by hand.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ PairResult In(PairResult result,
   return result;
 }
 
-// On "00" a is right in 2 of 2 and b in 1 of 2; on "xx" a in 0 of 1.
+// On "00", a succeeds in 2 of 2 and b in 1 of 2; on "xx", a in 0 of 1.
 std::vector<PairResult> Results() {
   return {In(ResultOff("a", "1", 0.2, 1.0), "00"),
           In(ResultOff("a", "2", 1.0, 6.0), "00"),
@@ -45,7 +45,7 @@ std::vector<PairResult> Results() {
           In(UnreadableResult("b", "3"), "xx")};
 }
 
-// Row whose first two cells are these -> column -> cell.
+// The row with these first two cells, as column -> cell.
 std::map<std::string, std::string> RowOf(const Table& table,
                                          const std::string& first,
                                          const std::string& second) {
@@ -55,7 +55,7 @@ std::map<std::string, std::string> RowOf(const Table& table,
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < row.size(); ++i) {
       EXPECT_TRUE(cells.emplace(table.columns[i], row[i]).second)
-          << table.columns[i] << " comes twice";
+          << table.columns[i] << " is listed twice";
     }
     return cells;
   }
@@ -149,7 +149,7 @@ TEST(BinTable, HasARowAMethodAndBin) {
   EXPECT_EQ(row.at("all answers / r median deg"), "2.000");
   EXPECT_EQ(row.at("all answers / yaw avg deg"), "1.000");
   const auto wrong = RowOf(table, "a", "yaw 90 deg");
-  EXPECT_EQ(wrong.at("wrong registered"), "1");
+  EXPECT_EQ(wrong.at("false registrations"), "1");
   EXPECT_EQ(wrong.at("successes / t_avg m"), "");
   EXPECT_EQ(wrong.at("all answers / t_avg m"), "9.000");
 }
@@ -165,7 +165,7 @@ TEST(SummaryTable, HasARowAMethodAndSetAndOneOfAll) {
   EXPECT_EQ(all.at("apart"), "1");
   EXPECT_EQ(all.at("answers"), "1");
   EXPECT_EQ(all.at("registered"), "2");
-  EXPECT_EQ(all.at("wrong registered"), "1");
+  EXPECT_EQ(all.at("false registrations"), "1");
   EXPECT_EQ(all.at("success % / 2 m 5 deg"), "50.00");
   EXPECT_EQ(all.at("success % / 2 m 5 deg high"),
             NumberCell(100.0 * WilsonInterval(1, 2).high, 2));
@@ -184,8 +184,8 @@ TEST(SignificanceTable, IsThatOfTheTests) {
   ASSERT_EQ(table.rows.size(), 2u);
   const auto row = RowOf(table, "ours", "other");
   EXPECT_EQ(row.at("pairs"), "12");
-  EXPECT_EQ(row.at("only method right"), "11");
-  EXPECT_EQ(row.at("only other right"), "0");
+  EXPECT_EQ(row.at("only method correct"), "11");
+  EXPECT_EQ(row.at("only other correct"), "0");
   EXPECT_EQ(row.at("success p"), "9.8e-04");  // 2 / 2^11
   EXPECT_EQ(row.at("r difference deg"), "-1.000");
   EXPECT_EQ(row.at("r p"), "4.9e-04");  // 2 / 2^12
@@ -367,7 +367,7 @@ std::vector<std::string> NamesOf(const std::vector<TableFile>& files) {
 
 TEST(RunTables, AreTheFilesOfARun) {
   auto results = TimedResults();
-  // Table I is of 9-12 m alone.
+  // Table I is only for 9-12 m.
   for (PairResult& result : results) result.bin = "all";
   results[0].distance = 5.0;
   results[3].distance = 5.0;
@@ -394,7 +394,7 @@ TEST(RunTables, AreTheFilesOfARun) {
   EXPECT_EQ(RowOf(tables[0].table, "b", "measured").at("00"), "0.00");
   EXPECT_EQ(RowOf(tables[1].table, "a", "measured").at("4-6 m / t_avg m"),
             "0.300");
-  // For print, the paper's averages; for CSV, all.
+  // For printing, the paper's averages; for CSV, all.
   EXPECT_EQ(tables[2].table.columns.size(), 2u + 6u + 3u + 4u);
   EXPECT_EQ(tables[2].with_intervals.columns.size(),
             2u + 6u + 3u * 3u + 2u * (4u * 3u + 2u));
@@ -410,7 +410,7 @@ const RunTable* Find(const std::vector<RunTable>& tables,
   return nullptr;
 }
 
-// What is drawn for another bin does not count in Table I.
+// Rows drawn for another bin do not count in Table I.
 TEST(RunTables, TableOneIsOfItsBinIfThereIsOne) {
   std::vector<PairResult> results = {
       In(ResultOff("a", "1", 0.1, 1.0), "00", "9-12 m"),

@@ -23,7 +23,7 @@ Rigid3 RandomPose(std::uint64_t seed, double angle, double distance) {
           distance * RandomDirection(seed + 1000)};
 }
 
-// n points that lie on random lines (or planes) once moved by `pose`.
+// n points that are on random lines (or planes) after `pose` is applied.
 std::vector<SurfaceMatch> Matches(int n,
                                   const Rigid3& pose,
                                   bool are_lines,
@@ -41,8 +41,8 @@ std::vector<SurfaceMatch> Matches(int n,
   return matches;
 }
 
-// Of both residuals: the derivatives against central differences, taken freely
-// in the four numbers of the quaternion.
+// For both residuals: the derivatives agree with central differences, taken
+// independently in the four numbers of the quaternion.
 template <typename Residual, int kSize>
 void ExpectDerivativesAreThoseOfDifferences(std::uint64_t seed) {
   const SurfaceMatch match =
@@ -90,8 +90,8 @@ TEST(LinePlaneResiduals, DerivativesAreThoseOfDifferences) {
 TEST(LinePlaneResiduals, AreTheDistances) {
   const double turn[] = {0.0, 0.0, std::sin(M_PI / 4), std::cos(M_PI / 4)};
   const double translation[] = {1.0, 0.0, 2.0};
-  // Moved by a quarter turn about z and (1, 0, 2): (1, 3, 2) - and the line
-  // along x through (5, 0, -2) is (3, 4) away in (y, z).
+  // Rotated by a quarter turn about z and shifted by (1, 0, 2): (1, 3, 2). The
+  // line along x through (5, 0, -2) is (3, 4) away in (y, z).
   const SurfaceMatch match{Eigen::Vector3d(3.0, 0.0, 0.0),
                            Eigen::Vector3d(5.0, 0.0, -2.0),
                            Eigen::Vector3d::UnitX()};
@@ -180,7 +180,7 @@ TEST(AlignToLinesAndPlanes, MovesWithTheTarget) {
   }
 }
 
-// Planes whose normals are the axes in `axes`, but for a thousandth.
+// Planes whose normals are the axes in `axes`, up to a thousandth.
 std::vector<SurfaceMatch> AxisPlanes(const std::vector<int>& axes) {
   const Points sources = RandomPoints(300, 10.0, 3);
   std::vector<SurfaceMatch> planes;
@@ -199,7 +199,8 @@ TEST(AlignToLinesAndPlanes, GroundOrATunnelAloneHoldNoPose) {
   for (const auto& axes : {std::vector<int>{2}, std::vector<int>{1, 2}}) {
     const auto summary = AlignToLinesAndPlanes({}, AxisPlanes(axes), {}, {});
     EXPECT_FALSE(summary.target_from_source);
-    EXPECT_THAT(summary.message, ::testing::HasSubstr("six freedoms"));
+    EXPECT_THAT(summary.message,
+                ::testing::HasSubstr("six degrees of freedom"));
   }
   const auto room = AlignToLinesAndPlanes({}, AxisPlanes({0, 1, 2}), {}, {});
   EXPECT_TRUE(room.target_from_source) << room.message;

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-// A level ring over azimuths -60 ... 60 deg in steps of 0.2 deg of what is at
-// range(azimuth); no point where that is not finite.
+// A level ring over azimuths -60 ... 60 deg in steps of 0.2 deg, with the range
+// range(azimuth); no point if it is not finite.
 Points Ring(const std::function<double(double)>& range) {
   std::vector<Eigen::Vector3d> seen;
   for (int i = -300; i <= 300; ++i) {
@@ -49,15 +49,16 @@ ScanRings OneRing(const Points& points) {
   return scan;
 }
 
-// Two walls that meet at (10, 0) at a right angle, away from the sensor.
+// Two walls that meet at (10, 0) at a right angle, pointing away from the
+// sensor.
 double InnerCorner(double a) {
   return 10.0 / (std::cos(a) + std::abs(std::sin(a)));
 }
 
-// Where a wall across at x = 10 is seen.
+// The range of a wall across at x = 10.
 double Wall(double a) { return 10.0 / std::cos(a); }
 
-// Half angle of the post below [rad].
+// Half the angle of the post below [rad].
 constexpr double kPost = 5.0 * kDegree;
 
 // A post 6 m away in front of the wall.
@@ -85,7 +86,7 @@ TEST(FindRingFeatures, SharpIsTheCornerOfTwoWallsAndFlatIsNot) {
 }
 
 TEST(FindRingFeatures, CountsHoldASector) {
-  // Teeth of 0.5 m: edges everywhere.
+  // Teeth of 0.5 m give edges everywhere.
   const Points points = Ring([](double a) {
     return 8.0 + 0.5 * std::abs(std::remainder(a / (4.0 * kDegree), 1.0));
   });
@@ -103,8 +104,8 @@ TEST(FindRingFeatures, CountsHoldASector) {
   EXPECT_EQ(features.less_sharp.points.cols(), 6);
 }
 
-// (1) by hand: a point 0.05 m before a wall, its ten neighbors in a line, has
-// c = (10 * 0.05)^2 = 0.25; a neighbor of it only 0.05^2.
+// (1) by hand: a point 0.05 m in front of a wall, with ten neighbors in a line,
+// has c = (10 * 0.05)^2 = 0.25; its neighbors have only 0.05^2.
 TEST(FindRingFeatures, CurvatureIsTheSquaredSumOfDifferences) {
   Points points(3, 41);
   for (int i = 0; i < 41; ++i) points.col(i) << 10.0, 0.03 * (i - 20), 0.0;
@@ -134,7 +135,7 @@ TEST(FindRingFeatures, TheRimOfTheShadowIsNotAnEdgeAndThePostIs) {
 }
 
 // A wall along the line of sight, y = 0.6: its points are 0.018 to 0.041 of the
-// range apart, and less than a rim.
+// range apart, less than a rim.
 TEST(FindRingFeatures, AWallAlongTheBeamIsNotChosen) {
   const Points points = Ring([](double a) {
     const double r = 0.6 / std::sin(a);

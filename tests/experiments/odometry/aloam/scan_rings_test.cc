@@ -41,7 +41,7 @@ std::vector<Sensor> Sensors() {
           {"OS1-64", EvenElevations(64, 16.6, -16.6)}};
 }
 
-// Beam by beam.
+// Points in the order of the beams.
 Points Simulate(const Sensor& sensor) {
   SimulatePairOptions options;
   options.lidar.elevations = sensor.elevations;
@@ -55,13 +55,13 @@ double Elevation(const Eigen::Vector3d& p) {
   return std::atan2(p.z(), std::hypot(p.x(), p.y()));
 }
 
-// Every ring is one of the sensor's beams, whole but for the rings' ends, and
-// goes round one way.
+// Every ring is one of the sensor's beams, complete except for its ends, and
+// has one direction.
 void ExpectRingsOf(const Sensor& sensor,
                    const Points& points,
                    const ScanRings& scan) {
   SCOPED_TRACE(sensor.name);
-  // Beams that see nothing but sky have no ring.
+  // Beams that only see the sky have no ring.
   std::vector<std::size_t> of_beam(sensor.elevations.size(), 0);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const double e = Elevation(points.col(i));
@@ -96,7 +96,7 @@ void ExpectRingsOf(const Sensor& sensor,
           std::atan2(p.y(), p.x()) - std::atan2(before.y(), before.x());
       ++num_back[step > 0.0];
     }
-    // One way but where the azimuth jumps by a whole turn.
+    // One direction, except where the azimuth jumps by a full revolution.
     EXPECT_LE(std::min(num_back[0], num_back[1]), 1);
     num_in_rings += scan.rings[r].size();
   }
@@ -123,7 +123,7 @@ TEST(EstimateScanRings, AreTheBeamsInAnyOrder) {
   }
 }
 
-// A mirrored scan turns the other way.
+// A mirrored scan rotates in the other direction.
 TEST(EstimateScanRings, DoNotDependOnTheSenseOfTheTurn) {
   const Sensor sensor = Sensors()[0];
   Points points = Simulate(sensor);
@@ -143,7 +143,7 @@ TEST(EstimateScanRings, AreNotToldWhereThereAreNone) {
             RingSource::kNone);
 }
 
-// Corrected for the car's motion by more than the beams are apart.
+// The correction for the car's motion exceeds the distance between beams.
 TEST(EstimateScanRings, OfKittiAre64) {
   for (const char* name : {"kitti_00/000000.bin",
                            "kitti_00/000020.bin",

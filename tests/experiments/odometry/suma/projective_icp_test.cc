@@ -25,8 +25,8 @@ SphericalImage Image() {
   return image;
 }
 
-// What a sensor sees of a room of 20 x 14 m, with a floor 2 m below it, a
-// ceiling 3 m above and normal noise of `sigma` [m].
+// A scan of a room of 20 x 14 m, with the floor 2 m below the sensor, the
+// ceiling 3 m above it and normal noise of `sigma` [m].
 VertexMap SeeRoom(const Rigid3& room_from_sensor, double sigma) {
   const SphericalImage image = Image();
   const Eigen::Vector3d low(-10.0, -7.0, -2.0), high(10.0, 7.0, 3.0);
@@ -86,7 +86,7 @@ TEST(AlignProjectively, FloorAloneHoldsNoPose) {
   }
   const auto summary = AlignProjectively(floor, floor, {}, {});
   EXPECT_FALSE(summary.model_from_scan);
-  EXPECT_THAT(summary.message, ::testing::HasSubstr("six freedoms"));
+  EXPECT_THAT(summary.message, ::testing::HasSubstr("six degrees of freedom"));
 }
 
 TEST(AlignProjectively, FarPartnersAndTurnedNormalsAreNone) {
@@ -95,7 +95,7 @@ TEST(AlignProjectively, FarPartnersAndTurnedNormalsAreNone) {
   const auto far = AlignProjectively(
       model, model, {Eigen::Matrix3d::Identity(), {0.0, 0.0, 500.0}}, options);
   EXPECT_FALSE(far.model_from_scan);
-  EXPECT_THAT(far.message, ::testing::HasSubstr("points have a partner"));
+  EXPECT_THAT(far.message, ::testing::HasSubstr("points have a match"));
   VertexMap inside_out = model;
   inside_out.normals *= -1.0;
   EXPECT_EQ(AlignProjectively(inside_out, model, {}, options).num_matches, 0);

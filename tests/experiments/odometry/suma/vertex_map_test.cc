@@ -54,7 +54,7 @@ TEST(FitImageTest, HoldsTheBeamsInTheMiddleOfTheirRows) {
   EXPECT_FALSE(FitImage(Points::Ones(3, 9), 32, 4));
 }
 
-// A room of 16 x 16 m around the sensor, 2 m below its middle the floor.
+// A room of 16 x 16 m around the sensor, with the floor 2 m below it.
 Eigen::Vector3d RoomAlong(const Eigen::Vector3d& ray) {
   double range = 8.0 / std::max(std::abs(ray.x()), std::abs(ray.y()));
   if (ray.z() < 0.0) range = std::min(range, -2.0 / ray.z());
@@ -91,7 +91,7 @@ TEST(MakeVertexMapTest, NormalsAreThoseOfTheRoom) {
     }
     if (n.dot(expected) > 0.999) ++num_right;
   }
-  // All but the corners' windows.
+  // All windows except those at the corners.
   EXPECT_GT(num_right, image.size() * 9 / 10);
 }
 
@@ -116,7 +116,7 @@ TEST(MakeVertexMapTest, ThreadsDoNotMatterBitForBit) {
   EXPECT_EQ(one.vertices, four.vertices);
 }
 
-// A turn about z by whole pixels moves the picture, at the seam, too.
+// A rotation about z by whole pixels shifts the image, also across the seam.
 TEST(MakeVertexMapTest, TurnsWithTheScan) {
   const SphericalImage image;
   const Points points = Room(image);
