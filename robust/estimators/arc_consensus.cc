@@ -13,6 +13,7 @@
 #include "features/base/random.h"
 #include "robust/estimators/consensus.h"
 #include "robust/estimators/distinct_matches.h"
+#include "robust/graph/far_matches.h"
 #include "robust/estimators/tims.h"
 #include "solvers/closed_form/exact_yaw.h"
 #include "solvers/closed_form/translation.h"
@@ -24,11 +25,17 @@ namespace {
 
 constexpr Eigen::Index kPiece = 1 << 15;  // Pairs drawn from one seed.
 
+double MinPlanarLength(const ArcConsensusOptions& options) {
+  return options.min_planar_length_factor * options.noise_bound;
+}
+
 // The pairs that keep their planar length and height difference.
 std::vector<TimPair> FindGatedPairs(const DistinctMatches& matches,
                                     const ArcConsensusOptions& options) {
   const Eigen::Index n = matches.source.cols();
   const double bound = 2.0 * options.noise_bound;
+  const double min_length = MinPlanarLength(options);
+  const double max_length = MaxResolved(options.noise_bound);
   const double sin_tilt = std::sin(options.max_tilt);
   const auto passes = [&](const TimPair& pair) {
     const Eigen::Vector3d a =
@@ -36,7 +43,7 @@ std::vector<TimPair> FindGatedPairs(const DistinctMatches& matches,
     const Eigen::Vector3d b =
         matches.target.col(pair.first) - matches.target.col(pair.second);
     const double length = a.head<2>().norm();
-    return length >= options.min_planar_length &&
+    return length >= min_length && length <= max_length &&
            std::abs(length - b.head<2>().norm()) <= bound &&
            std::abs(a.z() - b.z()) <= bound + length * sin_tilt;
   };
@@ -86,8 +93,9 @@ bool ArcConsensusOptions::IsValid(std::string* error) const {
     problem << "max_tilt = " << max_tilt << ", must be in [0, pi/2]";
   } else if (num_pairs < 1) {
     problem << "num_pairs = " << num_pairs << ", must be >= 1";
-  } else if (!(min_planar_length >= 0.0)) {
-    problem << "min_planar_length = " << min_planar_length << ", must be >= 0";
+  } else if (!(min_planar_length_factor >= 0.0)) {
+    problem << "min_planar_length_factor = " << min_planar_length_factor
+            << ", must be >= 0";
   } else if (num_threads < 0) {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   }
@@ -106,7 +114,8 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   }
 
   Stopwatch stopwatch;
-  const DistinctMatches matches = FindDistinctMatches(source, target);
+  const DistinctMatches matches =
+      FindDistinctMatches(source, target, options.noise_bound);
   summary.num_matches = matches.source.cols();
   summary.termination = PoseTermination::kInsufficient;
   std::vector<TimPair> pairs;
@@ -124,8 +133,10 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
   if (!yaw) {
     std::ostringstream message;
-    message << "a heading needs two matches that keep their distance, of "
-            << summary.num_matches << " no two were found that do";
+    message << "a heading needs two matches at least "
+            << MinPlanarLength(options)
+            << " m apart that keep their distance, of " << summary.num_matches
+            << " no two were found that do";
     summary.message = message.str();
     return summary;
   }

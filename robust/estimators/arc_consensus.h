@@ -37,8 +37,9 @@ struct ArcConsensusOptions {
   // M. All pairs are used if there are no more than this.
   Eigen::Index num_pairs = 1'000'000;
 
-  // Shorter pairs constrain the yaw poorly and pass the test by chance [m].
-  double min_planar_length = 3.0;
+  // Pairs shorter than so many noise bounds say little about the yaw and pass
+  // the gate by chance.
+  double min_planar_length_factor = 10.0;
 
   std::uint64_t seed = 0;
   int num_threads = 1;  // 0: all cores. Never changes the answer.

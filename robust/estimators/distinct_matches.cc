@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "features/base/random.h"
+#include "robust/graph/far_matches.h"
 
 namespace quatro {
 namespace {
@@ -24,14 +25,12 @@ std::uint64_t Hash(const Eigen::Vector3d& point) {
   return hash;
 }
 
-}  // namespace
-
-DistinctMatches FindDistinctMatches(const PointsRef& source,
-                                    const PointsRef& target) {
-  CHECK_EQ(source.cols(), target.cols());
-  const Eigen::Index n = source.cols();
-  std::vector<std::uint64_t> hash(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) {
+// Of the columns in `order`.
+DistinctMatches FindDistinct(const PointsRef& source,
+                             const PointsRef& target,
+                             std::vector<Eigen::Index> order) {
+  std::vector<std::uint64_t> hash(static_cast<std::size_t>(source.cols()));
+  for (const Eigen::Index i : order) {
     hash[static_cast<std::size_t>(i)] =
         Mix(Hash(source.col(i)) + Hash(target.col(i)));
   }
@@ -49,8 +48,6 @@ DistinctMatches FindDistinctMatches(const PointsRef& source,
     }
     return 0;
   };
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) {
     const int sign = compare(i, j);
     return sign != 0 ? sign < 0 : i < j;
@@ -74,6 +71,24 @@ DistinctMatches FindDistinctMatches(const PointsRef& source,
     distinct.target.col(k) = target.col(i);
   }
   return distinct;
+}
+
+}  // namespace
+
+DistinctMatches FindDistinctMatches(const PointsRef& source,
+                                    const PointsRef& target) {
+  CHECK_EQ(source.cols(), target.cols());
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(source.cols()));
+  std::iota(all.begin(), all.end(), 0);
+  return FindDistinct(source, target, std::move(all));
+}
+
+DistinctMatches FindDistinctMatches(const PointsRef& source,
+                                    const PointsRef& target,
+                                    double noise_bound) {
+  CHECK_EQ(source.cols(), target.cols());
+  return FindDistinct(
+      source, target, FindPlaceable(source, target, noise_bound));
 }
 
 std::vector<Eigen::Index> InputColumns(

@@ -31,8 +31,14 @@ struct DistinctMatches {
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target);
 
-// The input columns of the given distinct matches, all copies included, in
-// ascending order.
+// Without the matches that a double can't place
+// (robust/graph/far_matches.h).
+DistinctMatches FindDistinctMatches(const PointsRef& source,
+                                    const PointsRef& target,
+                                    double noise_bound);
+
+// The input columns that the given distinct matches stand for, in ascending
+// order.
 std::vector<Eigen::Index> InputColumns(
     const DistinctMatches& matches, const std::vector<Eigen::Index>& selected);
 

@@ -15,6 +15,7 @@
 
 #include "features/base/parallel.h"
 #include "robust/estimators/distinct_matches.h"
+#include "robust/graph/far_matches.h"
 #include "robust/estimators/rotation_observability.h"
 #include "robust/gnc/surrogate.h"
 #include "solvers/closed_form/rotation.h"
@@ -144,7 +145,8 @@ FgrSummary SolveFgr(const PointsRef& source,
   }
 
   Stopwatch stopwatch;
-  const DistinctMatches matches = FindDistinctMatches(source, target);
+  const DistinctMatches matches =
+      FindDistinctMatches(source, target, options.noise_bound);
   summary.num_matches = matches.source.cols();
   summary.termination = PoseTermination::kInsufficient;
   if (summary.num_matches < kNumNeeded) {
@@ -154,11 +156,15 @@ FgrSummary SolveFgr(const PointsRef& source,
     return summary;
   }
 
-  // About the means and in units of D.
-  const Eigen::Vector3d source_mean = matches.source.rowwise().mean();
-  const Eigen::Vector3d target_mean = matches.target.rowwise().mean();
-  Points p = matches.source.colwise() - source_mean;
-  Points q = matches.target.colwise() - target_mean;
+  // About the means and in units of D, without what is far from the rest.
+  const std::vector<Eigen::Index> near =
+      FindNear(matches.source, matches.target, options.noise_bound);
+  Points p = Columns(matches.source, near);
+  Points q = Columns(matches.target, near);
+  const Eigen::Vector3d source_mean = p.rowwise().mean();
+  const Eigen::Vector3d target_mean = q.rowwise().mean();
+  p.colwise() -= source_mean;
+  q.colwise() -= target_mean;
   const double extent =
       options.start_scale *
       std::sqrt(std::max(p.colwise().squaredNorm().maxCoeff(),
@@ -201,7 +207,9 @@ FgrSummary SolveFgr(const PointsRef& source,
   const Points errors = q - pose.Apply(p);
   std::vector<Eigen::Index> inliers;
   for (Eigen::Index i = 0; i < errors.cols(); ++i) {
-    if (errors.col(i).squaredNorm() <= limit) inliers.push_back(i);
+    if (errors.col(i).squaredNorm() <= limit) {
+      inliers.push_back(near[static_cast<std::size_t>(i)]);
+    }
   }
   summary.num_consistent = static_cast<Eigen::Index>(inliers.size());
   summary.num_rotation_inliers = summary.num_consistent;

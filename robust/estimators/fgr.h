@@ -28,6 +28,10 @@
 // which at a factor of 1.4 every four iterations lower mu to no less than D^2 /
 // 218.
 //
+// A match far from the others (FindNear() in robust/graph/far_matches.h)
+// has no part: one stray coordinate would be D, and its lever would hold the
+// pose.
+//
 // Source: Zhou, Park and Koltun, "Fast Global Registration", ECCV 2016.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_FGR_H_

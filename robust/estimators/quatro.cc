@@ -168,7 +168,8 @@ QuatroSummary SolveQuatro(const PointsRef& source,
     return summary;
   }
 
-  const DistinctMatches matches = FindDistinctMatches(source, target);
+  const DistinctMatches matches =
+      FindDistinctMatches(source, target, options.noise_bound);
   summary.num_matches = matches.source.cols();
   const std::vector<Eigen::Index> consistent = FindConsistent(
       matches, PruningFrom(options), options.num_threads, &summary.stage_times);

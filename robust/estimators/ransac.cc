@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "features/base/parallel.h"
 #include "features/base/random.h"
 #include "robust/estimators/distinct_matches.h"
+#include "robust/graph/far_matches.h"
 #include "robust/estimators/match_scorer.h"
 #include "robust/estimators/rotation_observability.h"
 #include "solvers/closed_form/rotation.h"
@@ -34,13 +34,15 @@ constexpr std::int64_t kLargestBatch = 4096;
 constexpr double kShrinkingBounds[] = {3.0, 2.0, 1.5};
 constexpr int kMaxRefits = 10;
 
-// Matches about their means, so that coordinates far from the origin keep
-// their digits.
+// Matches about the means of those that are near
+// (robust/graph/far_matches.h), so that coordinates far from the origin
+// keep their digits.
 struct Problem {
   DistinctMatches matches;
   std::optional<MatchedNormals> normals;
   Eigen::Vector3d source_mean;
   Eigen::Vector3d target_mean;
+  std::vector<Eigen::Index> near;
 
   Rigid3 Uncentered(const Rigid3& pose) const {
     return {pose.rotation,
@@ -67,13 +69,18 @@ MatchedNormals DistinctNormals(const DistinctMatches& matches,
 
 Problem MakeProblem(const PointsRef& source,
                     const PointsRef& target,
-                    const MatchedNormals* normals) {
+                    const MatchedNormals* normals,
+                    double noise_bound) {
   Problem problem;
-  problem.matches = FindDistinctMatches(source, target);
+  problem.matches = FindDistinctMatches(source, target, noise_bound);
   if (normals) problem.normals = DistinctNormals(problem.matches, *normals);
   if (problem.matches.source.cols() == 0) return problem;
-  problem.source_mean = problem.matches.source.rowwise().mean();
-  problem.target_mean = problem.matches.target.rowwise().mean();
+  problem.near =
+      FindNear(problem.matches.source, problem.matches.target, noise_bound);
+  const Points p = Columns(problem.matches.source, problem.near);
+  const Points q = Columns(problem.matches.target, problem.near);
+  problem.source_mean = p.rowwise().mean();
+  problem.target_mean = q.rowwise().mean();
   problem.matches.source.colwise() -= problem.source_mean;
   problem.matches.target.colwise() -= problem.target_mean;
   return problem;
@@ -99,12 +106,6 @@ std::optional<Fit> FitTo(const Problem& problem,
   const auto yaw = EstimateYawTranslation(p, q, ones);
   if (!yaw) return std::nullopt;
   return Fit{yaw->target_from_source, 0.5 * yaw->curvature(0, 0)};
-}
-
-std::vector<Eigen::Index> AllColumns(const MatchScorer& scorer) {
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(scorer.num_matches()));
-  std::iota(all.begin(), all.end(), 0);
-  return all;
 }
 
 struct Best {
@@ -290,7 +291,7 @@ RansacSummary SolveRansac(const PointsRef& source,
   }
 
   Stopwatch stopwatch;
-  const Problem problem = MakeProblem(source, target, normals);
+  const Problem problem = MakeProblem(source, target, normals, bound);
   summary.num_matches = problem.matches.source.cols();
   summary.termination = PoseTermination::kInsufficient;
   std::optional<Best> best;
@@ -310,10 +311,9 @@ RansacSummary SolveRansac(const PointsRef& source,
   summary.consistent = InputColumns(problem.matches, inliers);
   summary.stage_times.push_back({"ransac", stopwatch.Lap()});
   const bool are_too_few = summary.num_consistent < num_needed;
-  // True if no sample of the matches determines a pose.
-  const bool are_all_alike =
-      are_too_few && summary.num_matches >= num_needed &&
-      !AreHeld(problem, AllColumns(scorer), options.minimal);
+  // Of matches none of whose samples holds a pose.
+  const bool are_all_alike = are_too_few && summary.num_matches >= num_needed &&
+                             !AreHeld(problem, problem.near, options.minimal);
   if (are_too_few && !are_all_alike) {
     std::ostringstream message;
     message << "a pose needs at least " << num_needed

@@ -10,6 +10,7 @@
 
 #include "robust/estimators/crosscheck.h"
 #include "robust/estimators/distinct_matches.h"
+#include "robust/graph/far_matches.h"
 #include "robust/gnc/so3.h"
 #include "robust/gnc/surrogate.h"
 #include "solvers/closed_form/translation.h"
@@ -20,19 +21,24 @@ namespace {
 
 constexpr int kNumNeeded = 3;
 
-// The ratio of lengths with the largest consensus of the TIMs. The bound for a
-// TIM of length |a| is 2 noise bounds / |a|.
+// The ratio of lengths that most differences agree on: each of length |a| holds
+// it to within 2 noise bounds over |a|. Without what is far from the rest,
+// whose bounds would drown the others.
 std::optional<double> EstimateScale(const DistinctMatches& matches,
                                     const TeaserOptions& options) {
-  const Eigen::Index n = matches.source.cols();
+  const std::vector<Eigen::Index> near =
+      FindNear(matches.source, matches.target, options.noise_bound);
+  const auto n = static_cast<Eigen::Index>(near.size());
   const bool takes_all = n * (n - 1) / 2 <= options.num_scale_tims;
   const auto pairs =
       MakeTimPairs(n,
                    takes_all ? TimLayout::kComplete : TimLayout::kRandom,
                    options.num_scale_tims,
                    options.seed);
-  const Eigen::VectorXd a = ComputeTims(matches.source, pairs).colwise().norm();
-  const Eigen::VectorXd b = ComputeTims(matches.target, pairs).colwise().norm();
+  const Eigen::VectorXd a =
+      ComputeTims(Columns(matches.source, near), pairs).colwise().norm();
+  const Eigen::VectorXd b =
+      ComputeTims(Columns(matches.target, near), pairs).colwise().norm();
   std::vector<double> scales;
   std::vector<double> bounds;
   for (Eigen::Index k = 0; k < a.size(); ++k) {
@@ -78,7 +84,8 @@ TeaserSummary SolveTeaser(const PointsRef& source,
   }
 
   Stopwatch stopwatch;
-  DistinctMatches matches = FindDistinctMatches(source, target);
+  DistinctMatches matches =
+      FindDistinctMatches(source, target, options.noise_bound);
   summary.num_matches = matches.source.cols();
   if (options.estimate_scale) {
     const auto scale = EstimateScale(matches, options);

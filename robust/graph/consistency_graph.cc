@@ -12,6 +12,7 @@
 
 #include "features/base/parallel.h"
 #include "features/base/simd.h"
+#include "robust/graph/far_matches.h"
 #include "robust/graph/pair_tests.h"
 
 namespace quatro {
@@ -27,16 +28,50 @@ QUATRO_SIMD_CLONES int CountBits(const Graph::Word* words, std::size_t num) {
   return count;
 }
 
-// The median on each axis, which a few outliers do not move.
-Eigen::Vector3d Median(const PointsRef& points) {
-  Eigen::Vector3d median;
-  for (int axis = 0; axis < 3; ++axis) {
-    Eigen::VectorXd x = points.row(axis).transpose();
-    const auto middle = x.begin() + x.size() / 2;
-    std::nth_element(x.begin(), middle, x.end());
-    median[axis] = *middle;
+// Points farther from the median, in bounds, are tested in double precision: a
+// float would round their distances by a sixteenth of the bound and more.
+constexpr float kMaxFloat = 1 << 20;
+
+// The table at the head of the header. Lengths that not even a double resolves
+// are not consistent with any.
+bool AreConsistent(const Eigen::Vector3d& a,
+                   const Eigen::Vector3d& b,
+                   const ConsistencyOptions& options) {
+  const bool is_planar = options.test != ConsistencyTest::kLength;
+  const double a_length = is_planar ? a.head<2>().norm() : a.norm();
+  const double b_length = is_planar ? b.head<2>().norm() : b.norm();
+  const double longer = std::max(a_length, b_length);
+  if (!(longer <= MaxResolved(options.bound)) ||
+      !(std::abs(a_length - b_length) <= options.bound)) {
+    return false;
   }
-  return median;
+  return options.test != ConsistencyTest::kPlanarAndHeight ||
+         std::abs(a.z() - b.z()) <=
+             options.bound + longer * std::sin(options.max_tilt);
+}
+
+// Sets the edges of the vertices with a point beyond kMaxFloat, `p` and `q`
+// being in bounds about the medians.
+void TestFarPoints(const PointsRef& source,
+                   const PointsRef& target,
+                   const Eigen::Matrix3Xf& p,
+                   const Eigen::Matrix3Xf& q,
+                   const ConsistencyOptions& options,
+                   Graph* graph) {
+  for (Eigen::Index i = 0; i < p.cols(); ++i) {
+    if (p.col(i).lpNorm<Eigen::Infinity>() <= kMaxFloat &&
+        q.col(i).lpNorm<Eigen::Infinity>() <= kMaxFloat) {
+      continue;
+    }
+    for (Eigen::Index j = 0; j < p.cols(); ++j) {
+      if (j == i) continue;
+      graph->SetEdge(static_cast<int>(i),
+                     static_cast<int>(j),
+                     AreConsistent(source.col(i) - source.col(j),
+                                   target.col(i) - target.col(j),
+                                   options));
+    }
+  }
 }
 
 }  // namespace
@@ -114,6 +149,7 @@ Graph BuildConsistencyGraph(const PointsRef& source,
                   test_square(squares[static_cast<std::size_t>(s)]);
                 }
               });
+  TestFarPoints(source, target, p, q, options, &graph);
   return graph;
 }
 

@@ -16,7 +16,9 @@ namespace quatro {
 
 // `source` and `target` hold the matches column by column. Distances are in
 // single precision about the clouds' medians: exact to about 1e-7 of how far
-// from there the points are, and a far outlier spoils no edge but its own.
+// from there the points are. Points a million bounds from there are compared in
+// double precision, so a far outlier spoils no edge, nor does it get one by
+// rounding.
 Graph BuildConsistencyGraph(const PointsRef& source,
                             const PointsRef& target,
                             const ConsistencyOptions& options,

@@ -51,9 +51,12 @@ class Graph {
   }
 
   // Sets the bits in both rows.
-  void AddEdge(int i, int j) {
-    SetBit(i, j);
-    SetBit(j, i);
+  void AddEdge(int i, int j) { SetEdge(i, j, true); }
+
+  // Adds or removes the edge.
+  void SetEdge(int i, int j, bool has_edge) {
+    SetBit(i, j, has_edge);
+    SetBit(j, i, has_edge);
   }
 
   // The number of neighbors of vertex i.
@@ -89,9 +92,10 @@ class Graph {
     return static_cast<std::size_t>(i) *
            static_cast<std::size_t>(words_per_row_);
   }
-  void SetBit(int i, int j) {
-    MutableRow(i)[static_cast<std::size_t>(j / kWordBits)] |=
-        Word{1} << (j % kWordBits);
+  void SetBit(int i, int j, bool value) {
+    Word& word = MutableRow(i)[static_cast<std::size_t>(j / kWordBits)];
+    const Word bit = Word{1} << (j % kWordBits);
+    word = value ? word | bit : word & ~bit;
   }
 
   int num_vertices_;

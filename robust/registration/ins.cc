@@ -71,7 +71,7 @@ void Fuse(const PointsRef& source,
           const InsOptions& ins,
           PoseSummary* summary) {
   const DistinctMatches matches =
-      FindDistinctMatches(summary->scale * source, target);
+      FindDistinctMatches(summary->scale * source, target, noise_bound);
   const double match_std =
       ins.match_std > 0.0 ? ins.match_std : noise_bound / kSigmasInBound;
   VerticalPrior prior;

@@ -129,7 +129,6 @@ std::optional<MatchRival> FindMatchRival(const PointsRef& source,
   }
   ArcConsensusOptions arc;
   arc.noise_bound = noise_bound;
-  arc.min_planar_length = 10.0 * noise_bound;
   arc.num_pairs = options.num_pairs;
   arc.seed = options.seed;
   arc.num_threads = options.num_threads;

@@ -121,7 +121,7 @@ Verdict Judge(const PointsRef& source,
 
   const Rigid3& pose = *summary.target_from_source;
   const DistinctMatches all =
-      FindDistinctMatches(summary.scale * source, target);
+      FindDistinctMatches(summary.scale * source, target, noise_bound);
   const DistinctMatches consistent =
       FindDistinctMatches(summary.scale * Columns(source, summary.consistent),
                           Columns(target, summary.consistent));

@@ -106,7 +106,7 @@ def test_matches_that_are_not_finite_are_refused(method, bad):
     ('quatro', {'noise_bound': float('nan')}, 'noise_bound = nan, must be > 0 and finite'),
     ('arc_consensus', {'num_pairs': 0}, 'num_pairs = 0, must be >= 1'),
     ('arc_consensus', {'max_tilt': 2}, 'max_tilt = 2, must be in [0, pi/2]'),
-    ('arc_consensus', {'min_planar_length': -1}, 'min_planar_length = -1, must be >= 0'),
+    ('arc_consensus', {'min_planar_length_factor': -1}, 'min_planar_length_factor = -1, must be >= 0'),
     ('teaser', {'num_scale_tims': 0}, 'num_scale_tims = 0, must be >= 1'),
     ('fgr', {'mu_step': 1}, 'mu_step = 1, must be > 1 and finite'),
     ('fgr', {'start_scale': 0}, 'start_scale = 0, must be > 0 and finite'),

@@ -228,7 +228,7 @@ TEST_F(ArcConsensusTest, NumberOfPairsIsHonoured) {
   const KnownProblem problem = MakeMatchedProblem(
       {.num_inliers = 300, .num_outliers = 0, .noise = 0.0}, /*seed=*/1);
   ArcConsensusOptions options;
-  options.min_planar_length = 0.0;
+  options.min_planar_length_factor = 0.0;
   options.num_pairs = 1234;
   EXPECT_EQ(Solve(problem, options).num_tims, 1234);
   options.num_pairs = 300 * 299 / 2 - 1;
@@ -246,13 +246,30 @@ TEST_F(ArcConsensusTest, PairsThatAreTooShortAreLeftOut) {
   const Rigid3 motion{RotationZ(0.5), {1.0, 2.0, 3.0}};
   ArcConsensusOptions options;
   const auto num_tims = [&](double min_planar_length) {
-    options.min_planar_length = min_planar_length;
+    options.min_planar_length_factor = min_planar_length / options.noise_bound;
     return SolveArcConsensus(source, motion.Apply(source), options).num_tims;
   };
   EXPECT_EQ(num_tims(0.0), 45);
   EXPECT_EQ(num_tims(1.5), 36);
   EXPECT_EQ(num_tims(8.5), 1);
   EXPECT_EQ(num_tims(9.5), 0);
+}
+
+TEST_F(ArcConsensusTest, MinimalLengthIsInNoiseBoundsAndNamedInTheReason) {
+  Points source = Points::Zero(3, 2);
+  source(0, 1) = 0.5;  // [m]
+  ArcConsensusOptions options;
+  const PoseSummary summary = SolveArcConsensus(source, source, options);
+  ExpectNoAnswer(summary, PoseTermination::kInsufficient);
+  EXPECT_THAT(summary.message, HasSubstr("at least 3 m apart"));
+  options.noise_bound = 0.04;
+  EXPECT_TRUE(SolveArcConsensus(source, source, options).IsUsable());
+}
+
+TEST_F(ArcConsensusTest, PairsThatNoDoubleResolvesAreLeftOut) {
+  Points source = Points::Zero(3, 2);
+  source(0, 1) = 1e16;
+  EXPECT_EQ(SolveArcConsensus(source, source, {}).num_tims, 0);
 }
 
 TEST_F(ArcConsensusTest, HeightsAreHeldToTheTiltAllowed) {
@@ -365,8 +382,10 @@ TEST(ArcConsensusOptions, ErrorNamesTheFieldAndNothingIsTried) {
   expect_error({.max_tilt = 2.0}, "max_tilt = 2");
   expect_error({.max_tilt = kNaN}, "max_tilt = nan");
   expect_error({.num_pairs = 0}, "num_pairs = 0");
-  expect_error({.min_planar_length = -1.0}, "min_planar_length = -1");
-  expect_error({.min_planar_length = kNaN}, "min_planar_length = nan");
+  expect_error({.min_planar_length_factor = -1.0},
+               "min_planar_length_factor = -1");
+  expect_error({.min_planar_length_factor = kNaN},
+               "min_planar_length_factor = nan");
   expect_error({.num_threads = -1}, "num_threads = -1");
 }
 

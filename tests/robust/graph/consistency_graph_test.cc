@@ -233,6 +233,46 @@ TEST(ConsistencyGraph, OneFarOutlierCostsTheOthersNoPrecision) {
   }
 }
 
+TEST(ConsistencyGraph, FarMatchesHaveTheEdgesOfTheDefinition) {
+  // Half of the matches as far away as a float does not resolve the bound: on
+  // both sides alike, but for some that are off.
+  for (const double far : {1e7, 1e9, 1e12}) {
+    KnownProblem problem = MakeMatchedProblem({}, /*seed=*/10);
+    for (Eigen::Index i = 0; i < problem.source.cols(); i += 2) {
+      problem.source.col(i) += Eigen::Vector3d(far, 0.0, 0.0);
+      problem.target.col(i) = problem.source.col(i);
+      problem.target(0, i) += 0.5 * static_cast<double>(i % 5);
+    }
+    for (const ConsistencyTest test : kAllTests) {
+      ConsistencyOptions options;
+      options.test = test;
+      const Graph graph = Build(problem.source, problem.target, test);
+      int num_edges = 0;
+      for (int i = 0; i < graph.num_vertices(); i += 2) {
+        for (int j = 0; j < graph.num_vertices(); ++j) {
+          if (i == j) continue;
+          const double margin = Margin(problem, options, i, j);
+          if (std::abs(margin) < 1e-3) continue;
+          EXPECT_EQ(graph.HasEdge(i, j), margin > 0.0)
+              << far << " m, test " << static_cast<int>(test) << ", " << margin;
+          EXPECT_EQ(graph.HasEdge(j, i), graph.HasEdge(i, j));
+          num_edges += graph.HasEdge(i, j);
+        }
+      }
+      EXPECT_GT(num_edges, 100);
+      EXPECT_LT(num_edges, 2000);
+    }
+  }
+}
+
+TEST(ConsistencyGraph, LengthsThatNoDoubleResolvesHaveNoEdge) {
+  Points points = Points::Zero(3, 3);
+  points.row(0) << 0.0, 1.0, 1e16;
+  const Graph graph = Build(points, points, ConsistencyTest::kLength);
+  EXPECT_TRUE(graph.HasEdge(0, 1));
+  EXPECT_EQ(graph.Degree(2), 0);
+}
+
 TEST(Graph, NeighborsComeInAscendingOrder) {
   Graph graph(130);
   for (const int j : {129, 3, 64, 63, 0}) graph.AddEdge(70, j);
@@ -243,6 +283,10 @@ TEST(Graph, NeighborsComeInAscendingOrder) {
   EXPECT_EQ(graph.Degree(129), 1);
   EXPECT_TRUE(graph.HasEdge(129, 70));
   EXPECT_FALSE(graph.HasEdge(128, 70));
+  graph.SetEdge(129, 70, false);
+  EXPECT_FALSE(graph.HasEdge(129, 70));
+  EXPECT_FALSE(graph.HasEdge(70, 129));
+  EXPECT_EQ(graph.Degree(70), 4);
 }
 
 TEST(ConsistencyOptions, ErrorNamesTheFieldThatIsOutOfRange) {
