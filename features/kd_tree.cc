@@ -52,9 +52,22 @@ double LimitOf(double squared_radius) {
                         std::numeric_limits<double>::infinity());
 }
 
-// The result set that nanoflann fills: keeps the nearest point below `limit`.
-struct NearestBelow {
+// Result sets of our own: those of nanoflann changed names and types between
+// 1.4 and 1.12. From 1.6 on nanoflann calls sort(), from 1.7 on it asks for the
+// types.
+struct ResultSet {
+  using DistanceType = double;
+  using IndexType = std::uint32_t;
+
   double limit;
+
+  double worstDist() const { return limit; }
+  bool full() const { return true; }
+  void sort() {}
+};
+
+// The nearest of the points below `limit`, which shrinks to its distance.
+struct NearestBelow : ResultSet {
   std::optional<std::uint32_t> index;
 
   bool addPoint(double squared_distance, std::uint32_t i) {
@@ -64,12 +77,21 @@ struct NearestBelow {
     }
     return true;
   }
-  double worstDist() const { return limit; }
-  bool full() const { return true; }
   std::size_t size() const { return index ? 1 : 0; }
 };
 
-// find(i) returns the neighbors of point i.
+// All points below `limit`, with their squared distances.
+struct AllBelow : ResultSet {
+  std::vector<std::pair<std::uint32_t, double>> found;
+
+  bool addPoint(double squared_distance, std::uint32_t i) {
+    if (squared_distance < limit) found.emplace_back(i, squared_distance);
+    return true;
+  }
+  std::size_t size() const { return found.size(); }
+};
+
+// find(i) returns the neighbours of point i.
 template <typename Find>
 Neighborhoods FindRows(Eigen::Index num_points,
                        int num_threads,
@@ -123,16 +145,13 @@ KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 
 std::vector<Neighbor> KdTree::WithinRadius(const Eigen::Vector3d& query,
                                            double radius) const {
-  std::vector<std::pair<std::uint32_t, double>> found;
   const double squared_radius = radius * radius;
-  nanoflann::SearchParams params;
-  params.sorted = false;
-  index_->tree().radiusSearch(
-      query.data(), LimitOf(squared_radius), found, params);
-  std::sort(found.begin(), found.end());
+  AllBelow below{{LimitOf(squared_radius)}, {}};
+  index_->tree().findNeighbors(below, query.data(), {});
+  std::sort(below.found.begin(), below.found.end());
   std::vector<Neighbor> neighbors;
-  neighbors.reserve(found.size());
-  for (const auto& [i, d2] : found) {
+  neighbors.reserve(below.found.size());
+  for (const auto& [i, d2] : below.found) {
     if (d2 <= squared_radius) neighbors.push_back({i, d2});
   }
   return neighbors;
@@ -165,9 +184,8 @@ std::vector<Neighbor> KdTree::Nearest(const Eigen::Vector3d& query,
 std::optional<Neighbor> KdTree::NearestWithin(const Eigen::Vector3d& query,
                                               double radius) const {
   const double squared_radius = radius * radius;
-  NearestBelow nearest{LimitOf(squared_radius), std::nullopt};
-  index_->tree().findNeighbors(
-      nearest, query.data(), nanoflann::SearchParams());
+  NearestBelow nearest{{LimitOf(squared_radius)}, std::nullopt};
+  index_->tree().findNeighbors(nearest, query.data(), {});
   if (!nearest.index || nearest.limit > squared_radius) return std::nullopt;
   return Neighbor{*nearest.index, nearest.limit};
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Lists tracked sources that do not match .clang-format, and fails if there are
-# any. Versions of clang-format differ in details; Debian 12's is the reference.
+# Fails if a tracked source is not as .clang-format has it; lists those.
+# Versions differ in details: 14, that of Debian 12, is the one that counts, and
+# the test is skipped where there is only another.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -8,6 +9,11 @@ clang_format=$(command -v clang-format-14 || command -v clang-format) || {
   echo "format_test.sh: no clang-format; third_party/install.sh --ci installs it" >&2
   exit 2
 }
+version=$("$clang_format" --version | sed -nE 's/.*version ([0-9]+).*/\1/p')
+if [[ $version != 14 ]]; then
+  echo "format: skipped, clang-format $version is not 14"
+  exit 0
+fi
 list=$(git ls-files -- '*.h' '*.cc')
 mapfile -t sources <<<"$list"
 

@@ -1,16 +1,26 @@
 # All libraries with which quatro is built. third_party/install.sh installs
 # them; third_party/README.md lists versions and licenses.
 find_package(Threads REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+# Without a version: a request for 3.4 would refuse Eigen 5, and a range both.
+find_package(Eigen3 REQUIRED NO_MODULE)
+if(Eigen3_VERSION VERSION_LESS 3.4)
+  message(FATAL_ERROR "Eigen ${Eigen3_VERSION} in ${Eigen3_DIR} is too old: "
+          "install 3.4 or newer, or set Eigen3_DIR")
+endif()
 find_package(Ceres 2.1 REQUIRED)
 find_package(glog REQUIRED)
 find_package(nanoflann REQUIRED)
+list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 find_package(liblzf REQUIRED)
 
 if(QUATRO_BUILD_EXPERIMENTS OR QUATRO_BUILD_TESTS)
   find_package(gflags REQUIRED)
   find_package(nlohmann_json 3 REQUIRED)
-  find_package(embree 3 REQUIRED)
+  find_package(embree REQUIRED)
+  if(NOT embree_VERSION MATCHES "^[34]\\.")
+    message(FATAL_ERROR "Embree ${embree_VERSION} in ${embree_DIR}: "
+            "install 3 or 4, or set embree_DIR")
+  endif()
   if(QUATRO_BUILD_BENCHMARK STREQUAL AUTO)
     find_package(benchmark QUIET)
     if(NOT benchmark_FOUND)

@@ -35,6 +35,7 @@ install(DIRECTORY ${QUATRO_EXPORTED}
 install(FILES "${PROJECT_BINARY_DIR}/include/quatro/version.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quatro" COMPONENT quatro_development)
 
+string(REGEX MATCH "^[0-9]+\\.[0-9]+" QUATRO_EIGEN_VERSION "${Eigen3_VERSION}")
 configure_package_config_file(
     third_party/quatro-config.cmake.in "${PROJECT_BINARY_DIR}/quatro-config.cmake"
     INSTALL_DESTINATION "${QUATRO_CMAKE_DIR}" NO_SET_AND_CHECK_MACRO)
@@ -42,6 +43,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/quatro-config-version.cm
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/quatro-config.cmake"
               "${PROJECT_BINARY_DIR}/quatro-config-version.cmake"
+              third_party/Findliblzf.cmake
         DESTINATION "${QUATRO_CMAKE_DIR}" COMPONENT quatro_development)
 
 foreach(package IN ITEMS programs development)

@@ -3,25 +3,97 @@
 # Debian and Ubuntu, and with npm the packages bundled into HTML reports. Never
 # asks.
 #   third_party/install.sh [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers]
-#     --check     install nothing; list missing packages, exit 1 if there are any
-#     --ci        also packages that only .ci/run needs
-#     --docs      also packages that only docs/build.sh needs
-#     --tidy      also packages that only tests/tidy_test.sh needs
-#     --coverage  also packages that only tests/coverage.sh needs
-#     --peers     also packages that only -DQUATRO_WITH_OPEN3D and _PCL need (1 GB)
-# Exits with 1 if something could not be installed. On other systems it lists
-# the packages to install and exits with 0; cmake then finds out whether they
-# are present.
+#   third_party/install.sh --print SYSTEM
+#     --check     install nothing; list what is missing, exit 1 if anything is
+#     --print     install nothing; print the command for another system: debian,
+#                 fedora, arch, brew or conda
+#     --ci        with what only .ci/run needs
+#     --docs      with what only docs/build.sh needs
+#     --tidy      with what only tests/tidy_test.sh needs
+#     --coverage  with what only tests/coverage.sh needs
+#     --peers     with what only -DQUATRO_WITH_OPEN3D and _PCL need (a gigabyte)
+# Exits 1 if something could not be installed. Without apt it prints the command
+# of the system's own package manager and exits 0: cmake finds out whether the
+# packages are there.
 set -euo pipefail
 
-# third_party/README.md explains the purpose of each package.
-packages=(g++ cmake ninja-build make libeigen3-dev libceres-dev
-          libgoogle-glog-dev libgflags-dev libnanoflann-dev liblzf-dev
-          nlohmann-json3-dev libembree-dev libgtest-dev libgmock-dev
-          libbenchmark-dev librapidcheck-dev python3-numpy python3-matplotlib
-          pybind11-dev python3-dev python3-pytest python3-pip)
-# Node.js and npm from other sources conflict with Debian's packages.
-command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
+# Package names by system; third_party/README.md says what each package is for.
+# "+" comes with another package of the list, "-" is not packaged there.
+systems=(debian fedora arch brew conda)
+table='
+C++20 compiler     | g++                | gcc-c++                | gcc               | +                 | cxx-compiler
+CMake 3.22         | cmake              | cmake                  | cmake             | cmake             | cmake
+Ninja              | ninja-build        | ninja-build            | ninja             | ninja             | ninja
+make               | make               | make                   | make              | +                 | make
+Eigen 3.4          | libeigen3-dev      | eigen3-devel           | eigen             | eigen             | eigen
+Boost.Math         | libboost-dev       | boost-devel            | boost             | boost             | libboost-headers
+Ceres Solver 2.1   | libceres-dev       | ceres-solver-devel     | ceres-solver      | ceres-solver      | ceres-solver
+glog               | libgoogle-glog-dev | glog-devel             | google-glog       | glog              | glog
+gflags             | libgflags-dev      | gflags-devel           | gflags            | gflags            | gflags
+nanoflann 1.4      | libnanoflann-dev   | nanoflann-devel        | -                 | nanoflann         | nanoflann
+liblzf             | liblzf-dev         | liblzf-devel           | -                 | liblzf            | liblzf
+nlohmann-json 3    | nlohmann-json3-dev | json-devel             | nlohmann-json     | nlohmann-json     | nlohmann_json
+Embree 3           | libembree-dev      | embree-devel           | embree            | embree            | embree
+GoogleTest         | libgtest-dev       | gtest-devel            | gtest             | googletest        | gtest
+GoogleMock         | libgmock-dev       | gmock-devel            | +                 | +                 | gmock
+Google Benchmark   | libbenchmark-dev   | google-benchmark-devel | benchmark         | google-benchmark  | benchmark
+RapidCheck         | librapidcheck-dev  | rapidcheck-devel       | -                 | -                 | rapidcheck
+NumPy              | python3-numpy      | python3-numpy          | python-numpy      | numpy             | numpy
+Matplotlib         | python3-matplotlib | python3-matplotlib     | python-matplotlib | python-matplotlib | matplotlib-base
+pybind11 2.10      | pybind11-dev       | pybind11-devel         | pybind11          | pybind11          | pybind11
+Python headers     | python3-dev        | python3-devel          | python            | python            | python
+pytest             | python3-pytest     | python3-pytest         | python-pytest     | pytest            | pytest
+pip                | python3-pip        | python3-pip            | python-pip        | +                 | pip
+setuptools 61      | python3-setuptools | python3-setuptools     | python-setuptools | python-setuptools | setuptools
+wheel              | python3-wheel      | python3-wheel          | python-wheel      | -                 | wheel
+Node.js 18         | nodejs             | nodejs                 | nodejs            | node              | nodejs
+npm                | npm                | nodejs-npm             | npm               | +                 | +
+'
+
+# The cells of one system, a line each; of "what" the first column.
+column() {
+  local i names=(what "${systems[@]}")
+  for i in "${!names[@]}"; do
+    if [[ ${names[i]} == "$1" ]]; then
+      awk -F ' *[|] *' -v i="$((i + 1))" 'NF {sub(/ +$/, "", $i); print $i}' <<<"$table"
+    fi
+  done
+}
+
+print_command() {
+  local tool names missing
+  case "$1" in
+    debian) tool="sudo apt-get install --no-install-recommends" ;;
+    fedora) tool="sudo dnf install" ;;
+    arch) tool="sudo pacman -S --needed" ;;
+    brew) tool="brew install" ;;
+    conda) tool="conda install -c conda-forge" ;;
+    *) echo "install.sh: --print $1: not one of ${systems[*]}" >&2; return 2 ;;
+  esac
+  names=$(column "$1" | grep -vx '[+-]' | paste -s -d ' ' -)
+  echo "$tool $names"
+  missing=$(paste -d '|' <(column "$1") <(column what) | sed -n 's/^-|//p' | paste -s -d ',' - | sed 's/,/, /g')
+  if [[ -n $missing ]]; then
+    echo "# not packaged there; install from source: $missing"
+  fi
+}
+
+# What this system is, if it is not Debian's: a column of the table, or nothing.
+find_system() {
+  local ids
+  ids=$(sed -nE 's/^ID(_LIKE)?="?([^"]*)"?$/\2/p' "${OS_RELEASE:-/etc/os-release}" 2>/dev/null || true)
+  case " ${ids//$'\n'/ } " in
+    *" fedora "*) echo fedora ;;
+    *" arch "*) echo arch ;;
+    *)
+      if [[ $(uname) == Darwin ]]; then echo brew; elif [[ -n ${CONDA_PREFIX:-} ]]; then echo conda; fi ;;
+  esac
+}
+
+others='^$'
+# Node.js and npm from elsewhere exclude Debian's.
+if command -v node >/dev/null && command -v npm >/dev/null; then others='^nodejs$|^npm$'; fi
+read -r -d '' -a packages < <(column debian | grep -vE "$others") || true
 
 docs=(doxygen mkdocs mkdocs-material libjs-mathjax)
 
@@ -34,7 +106,8 @@ for arg in "$@"; do
     --docs) packages+=("${docs[@]}") ;;
     --tidy) packages+=(clang clang-tidy) ;;
     --coverage) packages+=(gcovr) ;;
-    *) echo "usage: $0 [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers]" >&2; exit 2 ;;
+    --print) print_command "${2:-}"; exit ;;
+    *) echo "usage: $0 [--check] [--ci] [--docs] [--tidy] [--coverage] [--peers] | --print SYSTEM" >&2; exit 2 ;;
   esac
 done
 
@@ -55,15 +128,15 @@ install_report_packages() {
 }
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-  cat >&2 <<'END'
-install.sh: no apt-get here; with your own package manager install
-  a C++20 compiler, CMake (3.22 or newer), Ninja or make, Eigen (3.4),
-  Ceres Solver (2.1 or newer), glog, gflags, nanoflann, liblzf,
-  nlohmann-json (3), Embree (3), GoogleTest with GoogleMock,
-  Google Benchmark for quatro_benchmark, RapidCheck for some tests,
-  Python 3 with NumPy and Matplotlib; for the module its headers, pybind11
-  (2.10) and pip, for its tests pytest; for HTML reports Node.js (18) and npm
-END
+  system=$(find_system)
+  if [[ -n $system ]]; then
+    echo "install.sh: no apt-get here; install with" >&2
+    print_command "$system" >&2
+  else
+    echo "install.sh: no apt-get here; with your own package manager install" >&2
+    column what | paste -s -d ',' - | sed 's/,/, /g' >&2
+    echo "or newer versions (nanoflann up to 1.12, Embree 3 or 4); see third_party/README.md" >&2
+  fi
   install_report_packages
   exit 0
 fi

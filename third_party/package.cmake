@@ -22,7 +22,7 @@ set(CPACK_COMPONENT_QUATRO_PROGRAMS_DESCRIPTION
 set(CPACK_DEBIAN_QUATRO_DEVELOPMENT_PACKAGE_NAME libquatro-dev)
 set(CPACK_DEBIAN_QUATRO_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_QUATRO_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev (>= 3.4), libceres-dev (>= 2.1), libgoogle-glog-dev, liblzf-dev")
+    "libeigen3-dev (>= ${QUATRO_EIGEN_VERSION}), libceres-dev (>= 2.1), libgoogle-glog-dev, liblzf-dev")
 if(BUILD_SHARED_LIBS)
   string(APPEND CPACK_DEBIAN_QUATRO_DEVELOPMENT_PACKAGE_DEPENDS
          ", quatro (= ${PROJECT_VERSION})")

@@ -3,7 +3,11 @@
 
 #include "experiments/simulator/lidar.h"
 
+#if QUATRO_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +58,16 @@ double MissProbability(const LidarOptions& options,
       std::sqrt(reflectance / 0.8 * std::sqrt(cos_incidence));
   const double ratio = range / std::max(faint_range, 1e-3);
   return 1.0 - (1.0 - options.dropout_rate) / (1.0 + std::pow(ratio, 8));
+}
+
+void Intersect(RTCScene scene, RTCRayHit* hit) {
+#if QUATRO_EMBREE_MAJOR >= 4
+  rtcIntersect1(scene, hit);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, hit);
+#endif
 }
 
 struct Echo {
@@ -206,13 +220,11 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
     hit.ray.tfar = static_cast<float>(options.max_range);
     hit.ray.mask = ~0u;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_, &context, &hit);
+    Intersect(scene_, &hit);
     const LidarScene* seen = this;
     if (others != nullptr) {
       const float behind = hit.ray.tfar;
-      rtcIntersect1(others->scene_, &context, &hit);
+      Intersect(others->scene_, &hit);
       if (hit.ray.tfar < behind) seen = others;
     }
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "features/base/abi_guard.h"
+
 namespace quatro {
 
 // One point per column [m]. Functions take `const PointsRef&`, which binds to a

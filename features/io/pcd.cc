@@ -3,7 +3,7 @@
 
 #include "features/io/pcd.h"
 
-#include <liblzf/lzf.h>
+#include <lzf.h>
 
 #include <array>
 #include <bit>

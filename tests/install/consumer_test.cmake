@@ -1,7 +1,7 @@
 # Builds and runs a program that uses the library as others would.
 #   cmake -DKIND=find_package|add_subdirectory|fetch_content -DSOURCE=repository
 #         -DBUILD=its-build-folder -DFOLDER=scratch [-DSHARED=ON]
-#         -DVERSION=its-version -DGENERATOR=... [-DLAUNCHER=ccache]
+#         -DVERSION=its-version -DGENERATOR=... -DCXX=compiler [-DLAUNCHER=ccache]
 #         -P consumer_test.cmake
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output
@@ -47,9 +47,11 @@ if(KIND STREQUAL find_package)
   endif()
 endif()
 
-run(configure ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/${KIND}"
+set(configure ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/${KIND}"
     -B "${FOLDER}/build" ${options} -DCMAKE_BUILD_TYPE=Debug "-DBUILD_SHARED_LIBS=${SHARED}"
-    "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
+    "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}"
+    "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
+run(configure ${configure})
 run(build ${CMAKE_COMMAND} --build "${FOLDER}/build" -j 2 --target ${programs})
 foreach(program IN LISTS programs)
   run(${program} "${FOLDER}/build/${program}")
@@ -58,4 +60,23 @@ foreach(program IN LISTS programs)
     message(FATAL_ERROR "${program}: another version than ${VERSION}: ${output}")
   endif()
 endforeach()
+
+# A program with another alignment must not link: features/base/abi_guard.h.
+if(KIND STREQUAL find_package)
+  set(flags -DEIGEN_MAX_ALIGN_BYTES=0)
+  execute_process(COMMAND "${CXX}" -mavx -E -x c++ /dev/null RESULT_VARIABLE code
+                  OUTPUT_QUIET ERROR_QUIET)
+  if(code EQUAL 0)
+    list(APPEND flags -mavx)
+  endif()
+  foreach(flag IN LISTS flags)
+    run("configure with ${flag}" ${configure} "-DCMAKE_CXX_FLAGS=${flag}")
+    execute_process(COMMAND ${CMAKE_COMMAND} --build "${FOLDER}/build" --target features_consumer
+                    RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(code EQUAL 0 OR NOT output MATCHES
+       "undefined [^\n]*library_compiled_with_other_EIGEN_MAX_ALIGN_BYTES_than")
+      message(FATAL_ERROR "compiled with ${flag}, the build ended with ${code}:\n${output}")
+    endif()
+  endforeach()
+endif()
 file(REMOVE_RECURSE "${FOLDER}")

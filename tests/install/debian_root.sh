@@ -1,82 +1,59 @@
 #!/usr/bin/env bash
-# Makes the Debian packages of a build folder, and on a bare Debian 12 made by
-# debootstrap installs them, registers two simulated scans and builds a program
-# of somebody else's. As root, with a mirror and 2 GB of disk; not run by ctest.
-#   tests/install/debian_root.sh BUILD_FOLDER ROOT [MIRROR]
-# ROOT is made if it is not there, and left.
+# Tries a clone of this repository's HEAD on a bare Debian made by debootstrap:
+# demo, tests, Python, install, packages. As root, with debootstrap, git, 6 GB of
+# disk and an hour of two cores; not run by ctest.
+#   tests/install/debian_root.sh SUITE FOLDER MIRROR, SUITE e.g. bookworm or trixie
+# FOLDER gets the roots bare, build and packages, and the logs. The bare root is
+# used again if it is there.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
-if (($# < 2 || $# > 3)); then
-  echo "usage: $0 BUILD_FOLDER ROOT [MIRROR]" >&2
+if (($# != 3)); then
+  echo "usage: $0 SUITE FOLDER MIRROR" >&2
   exit 2
 fi
-for tool in debootstrap cpack chroot dpkg-shlibdeps; do
+for tool in debootstrap chroot git; do
   if ! command -v "$tool" >/dev/null; then
-    echo "debian_root.sh: no $tool; apt-get install debootstrap cmake coreutils dpkg-dev" >&2
+    echo "debian_root.sh: no $tool; apt-get install debootstrap coreutils git" >&2
     exit 2
   fi
 done
-build=$(realpath "$1")
+suite=$1
+mirror=$3
 mkdir -p "$2"
-root=$(realpath "$2")
-mirror=${3:-$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | head -n 1)}
+folder=$(realpath "$2")
 proxy=$(apt-config dump Acquire::http::Proxy | sed -nE 's/.*"(.*)";/\1/p')
 if [[ -n $proxy ]]; then export http_proxy=$proxy; fi
 
-echo "== packages"
-rm -rf "$build/packages"
-(cd "$build" && cpack -G DEB -B "$build/packages")
-rm -rf "$build/packages/_CPack_Packages"
-for package in "$build"/packages/*.deb; do
-  dpkg-deb --field "$package" Package Version Depends Installed-Size
-done
-
-if [[ ! -e $root/etc/debian_version ]]; then
-  echo "== debootstrap from $mirror"
-  debootstrap --variant=minbase bookworm "$root" "$mirror"
+if [[ ! -e $folder/bare.made ]]; then
+  echo "== debootstrap $suite"
+  script=/usr/share/debootstrap/scripts/$suite
+  [[ -e $script ]] || script=/usr/share/debootstrap/scripts/sid
+  debootstrap --variant=minbase "$suite" "$folder/bare" "$mirror" "$script" >"$folder/bare.log"
+  touch "$folder/bare.made"
 fi
-cp -L /etc/resolv.conf "$root/etc/resolv.conf"
-rm -rf "$root/root/quatro"
-mkdir -p "$root/root/quatro"
-cp "$build"/packages/*.deb "$here"/*_main.cc "$root/root/quatro/"
-cp -r "$here/find_package" "$root/root/quatro/"
-mount -t proc proc "$root/proc"
-trap 'umount "$root/proc"' EXIT
 
-chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C \
-    DEBIAN_FRONTEND=noninteractive ${http_proxy:+http_proxy="$http_proxy"} bash -euo pipefail <<'END'
-cd /root/quatro
-install() { apt-get -q -y --no-install-recommends install "$@" </dev/null >install.log 2>&1 || { cat install.log; exit 1; }; }
-apt-get -q update </dev/null >update.log 2>&1 || { cat update.log; exit 1; }
+#   in_root NAME: a fresh copy of the bare root runs its steps, in_root.sh
+in_root() {
+  local root=$folder/$1 code=0
+  rm -rf --one-file-system "$root"
+  cp -a "$folder/bare" "$root"
+  cp -L /etc/resolv.conf "$root/etc/resolv.conf"
+  mkdir -p "$root/usr/local/share/ca-certificates"
+  cp -r /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
+  git clone -q --no-hardlinks "$here/../.." "$root/root/quatro"
+  if [[ -d $folder/debs ]]; then cp -r "$folder/debs" "$root/root/debs"; fi
+  mount -t proc proc "$root/proc"
+  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C \
+      DEBIAN_FRONTEND=noninteractive ${http_proxy:+http_proxy="$http_proxy"} \
+      bash "/root/quatro/tests/install/in_root.sh" "$1" </dev/null || code=$?
+  umount "$root/proc"
+  return "$code"
+}
 
-echo "== the programs alone"
-install ./quatro_*.deb
-quatro_register --version
-quatro_simulate --output=scans --num_frames=2 --frame_spacing=8 2>simulate.log || { cat simulate.log; exit 1; }
-quatro_register --source=scans/velodyne/000001.bin --target=scans/velodyne/000000.bin \
-    --json=answer.json
-grep -q '"status": "registered"' answer.json
-if quatro_register --source=scans/velodyne/000001.bin --target=scans/velodyne/000000.bin \
-    --picture=a.png >/dev/null 2>no_picture.txt; then exit 1; fi
-cat no_picture.txt
-
-echo "== with pictures"
-install python3-matplotlib python3-numpy
-quatro_register --source=scans/velodyne/000001.bin --target=scans/velodyne/000000.bin \
-    --picture=a.png >/dev/null
-test -s a.png
-
-echo "== somebody else's program"
-install ./libquatro-dev_*.deb g++ cmake make
-cmake -S find_package -B build >configure.log 2>&1 || { cat configure.log; exit 1; }
-cmake --build build >build.log 2>&1 || { cat build.log; exit 1; }
-build/features_consumer
-build/consumer
-
-echo "== removed"
-apt-get -q -y purge quatro libquatro-dev </dev/null >purge.log 2>&1
-left=$(find /usr -path '*quatro*')
-if [[ -n $left ]]; then echo "left: $left"; exit 1; fi
-END
-echo "== all passed"
+rm -rf "$folder/debs"
+in_root build
+mkdir "$folder/debs"
+cp "$folder"/build/root/quatro/build/packages/*.deb "$folder/debs/"
+in_root packages
+echo "== all passed on $suite ($SECONDS s)"
