@@ -48,7 +48,8 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
     problem << "the cloud is "
             << (last_cell - first_cell).maxCoeff() * voxel_size
             << " m wide, more than 2^21 voxels of " << voxel_size
-            << " m: remove stray points or enlarge voxel_size";
+            << " m: remove stray points, enlarge voxel_size, or see whether "
+               "the file is of another layout or unit";
     *error = problem.str();
     return std::nullopt;
   }

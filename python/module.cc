@@ -211,7 +211,7 @@ Alignment AlignClouds(const py::object& source,
   return answer;
 }
 
-py::array ReadPoints(const py::object& path) {
+py::array ReadPoints(const py::object& path, int point_floats) {
   const auto name =
       py::module_::import("os").attr("fsencode")(path).cast<std::string>();
   if (name.find('\0') != std::string::npos) {
@@ -221,7 +221,7 @@ py::array ReadPoints(const py::object& path) {
   std::optional<PointCloud> cloud;
   {
     const py::gil_scoped_release release;
-    cloud = ReadCloud(name, &error);
+    cloud = ReadCloud(name, {point_floats}, &error);
   }
   if (!cloud) throw py::value_error(error);
   return TakePoints(std::move(cloud->points));
@@ -338,13 +338,16 @@ void BindFunctions(py::module_* module) {
               py::arg("method") = "gicp",
               py::arg("initial_target_from_source") = py::none(),
               align_doc.c_str());
-  module->def("read_cloud",
-              &ReadPoints,
-              py::arg("path"),
-              "read_cloud(path)\n--\n\n"
-              "(N, 3) float64 of a .bin (KITTI), .ply or .pcd file [m]; points "
-              "that are\nnot finite are left out. Raises ValueError with what "
-              "is wrong with the file.");
+  module->def(
+      "read_cloud",
+      &ReadPoints,
+      py::arg("path"),
+      py::arg("point_floats") = 0,
+      "read_cloud(path, point_floats=0)\n--\n\n"
+      "(N, 3) float64 of a .bin, .ply or .pcd file [m]; points that are "
+      "not finite\nare left out. A point of a .bin has `point_floats` "
+      "numbers, x, y, z first; 0: told\nby the file. Raises ValueError "
+      "with what is wrong with the file.");
   module->def("methods",
               &MethodDict,
               "methods()\n--\n\n"

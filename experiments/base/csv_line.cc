@@ -29,7 +29,6 @@ std::string JoinCsvLine(const std::vector<std::string>& cells) {
 }
 
 std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
   std::vector<std::string> cells;
   std::size_t i = 0;
   while (true) {

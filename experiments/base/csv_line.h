@@ -20,9 +20,8 @@ std::string QuoteCsvCell(std::string_view cell);
 // Joins the cells with commas, without a line end.
 std::string JoinCsvLine(const std::vector<std::string>& cells);
 
-// Splits a line into its cells, one more than there are commas outside quotes.
-// A carriage return at the end is dropped. Returns nullopt if a quote is not
-// closed, or is anywhere but around a whole cell.
+// As many cells as there are commas outside quotes, and one. Nullopt if a quote
+// is not closed, or stands anywhere but around a whole cell.
 std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line);
 
 }  // namespace quatro

@@ -3,15 +3,15 @@
 
 #include "experiments/base/number_text.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <system_error>
+
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 
 std::vector<std::string_view> SplitFields(std::string_view line,
                                           std::string_view separators) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
   std::vector<std::string_view> fields;
   while (true) {
     const std::size_t begin = line.find_first_not_of(separators);
@@ -24,25 +24,20 @@ std::vector<std::string_view> SplitFields(std::string_view line,
   }
 }
 
+std::string_view Trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
 std::optional<double> ParseFiniteNumber(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, status] =
-      std::from_chars(field.data(), field.data() + field.size(), value);
-  if (status != std::errc() || end != field.data() + field.size() ||
-      !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
+  const std::optional<double> value = ParseNumber(field);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::vector<std::string_view> SplitLines(std::string_view text) {
   std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
+  while (!text.empty()) lines.push_back(TakeLine(&text));
   return lines;
 }
 

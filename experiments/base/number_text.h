@@ -12,16 +12,20 @@
 
 namespace quatro {
 
-// The fields of a line between any of `separators`; a run of separators counts
-// as one. A carriage return at the end is dropped.
+// The parts of a line between any of `separators`, a run of which counts once.
 std::vector<std::string_view> SplitFields(std::string_view line,
                                           std::string_view separators);
 
-// Returns the number if the whole field is one finite number, else nullopt.
+// What separates numbers in lines of text.
+inline constexpr std::string_view kBlanks = " \t\v\f";
+
+// Without blanks at both ends.
+std::string_view Trim(std::string_view text);
+
+// ParseNumber() of features/io/cloud_text.h, where it is finite.
 std::optional<double> ParseFiniteNumber(std::string_view field);
 
-// All lines of a file in order, without their line ends. The last line may lack
-// its line end.
+// All lines of a text in order, without their ends; the last may lack one.
 std::vector<std::string_view> SplitLines(std::string_view text);
 
 }  // namespace quatro

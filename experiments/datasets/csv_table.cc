@@ -19,25 +19,31 @@ bool CsvTable::Has(const std::string& column) const {
 
 std::optional<CsvTable> ReadCsvTable(const std::string& path,
                                      std::string* error) {
-  const auto text = ReadWholeFile(path, error);
+  const auto text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   CsvTable table;
   int line_number = 0;
   for (const std::string_view line : SplitLines(*text)) {
     ++line_number;
     const std::string where = path + ": line " + std::to_string(line_number);
-    if (line.empty() || line == "\r") continue;
+    if (SplitFields(line, kBlanks).empty()) continue;
     auto cells = SplitCsvLine(line);
     if (!cells) {
       *error = where + " has a quote that is not closed or within a cell";
       return std::nullopt;
     }
+    for (std::string& cell : *cells) cell = std::string(Trim(cell));
     if (table.columns.empty()) {
       const std::set<std::string> names(cells->begin(), cells->end());
       if (names.size() != cells->size()) {
         *error = where + " has a column twice";
         return std::nullopt;
       }
+      if (line.find(';') != std::string_view::npos) {
+        *error = where + " has semicolons, must have commas between columns";
+        return std::nullopt;
+      }
+      table.where_names = where;
       table.columns = std::move(*cells);
       continue;
     }

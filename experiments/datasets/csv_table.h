@@ -18,15 +18,16 @@ struct CsvRow {
 };
 
 struct CsvTable {
+  std::string where_names;  // "<file>: line <number>" of the names.
   std::vector<std::string> columns;
   std::vector<CsvRow> rows;
 
   bool Has(const std::string& column) const;
 };
 
-// Returns nullopt with one line in *error, which names file and line, if a
-// column name is repeated or a row does not have one cell per column. Empty
-// lines are ignored.
+// Nullopt with one line in *error, which names file and line, if a column comes
+// twice or a row has not as many cells as there are columns. Blank lines, and
+// blanks around names and cells, are passed over.
 std::optional<CsvTable> ReadCsvTable(const std::string& path,
                                      std::string* error);
 

@@ -40,7 +40,7 @@ std::optional<int> AsIndex(double value) {
 }
 
 std::optional<Entry> ParseEntry(std::string_view line, std::string* reason) {
-  const auto fields = SplitFields(line, " \t");
+  const auto fields = SplitFields(line, kBlanks);
   if (fields.size() != 20) {
     *reason = "has " + std::to_string(fields.size()) + " numbers, must have 20";
     return std::nullopt;
@@ -170,7 +170,7 @@ bool KittiPairListOptions::IsValid(std::string* error) const {
 std::optional<PairSelection> ReadKittiPairList(
     const KittiPairListOptions& options, std::string* error) {
   if (!options.IsValid(error)) return std::nullopt;
-  const auto text = ReadWholeFile(options.list, error);
+  const auto text = ReadTextFile(options.list, error);
   if (!text) return std::nullopt;
   PairSelection selection;
   Sequences sequences(options, &selection);
@@ -178,7 +178,7 @@ std::optional<PairSelection> ReadKittiPairList(
   int line_number = 0;
   for (const std::string_view line : SplitLines(*text)) {
     if (++line_number == 1 && line.starts_with("seq")) continue;
-    if (SplitFields(line, " \t").empty()) continue;
+    if (SplitFields(line, kBlanks).empty()) continue;
     std::string reason;
     const auto entry = ParseEntry(line, &reason);
     if (!entry) {

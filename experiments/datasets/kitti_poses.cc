@@ -58,15 +58,27 @@ std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix) {
 
 std::optional<std::vector<Rigid3>> ReadKittiPoses(const std::string& path,
                                                   std::string* error) {
-  const auto text = ReadWholeFile(path, error);
+  const auto text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   std::vector<Rigid3> poses;
+  int line_number = 0, blank_line = 0;
   for (const std::string_view line : SplitLines(*text)) {
+    ++line_number;
+    const auto fields = SplitFields(line, kBlanks);
+    if (fields.empty()) {
+      blank_line = line_number;
+      continue;
+    }
+    // A line is a frame: those after a blank one would be of a wrong number.
+    if (blank_line > 0) {
+      *error = path + ": line " + std::to_string(blank_line) +
+               " is blank, must have 12 numbers";
+      return std::nullopt;
+    }
     std::string reason;
-    const auto pose = ParseRows(SplitFields(line, " \t"), 0, &reason);
+    const auto pose = ParseRows(fields, 0, &reason);
     if (!pose) {
-      *error =
-          path + ": line " + std::to_string(poses.size() + 1) + " " + reason;
+      *error = path + ": line " + std::to_string(line_number) + " " + reason;
       return std::nullopt;
     }
     poses.push_back(*pose);
@@ -95,10 +107,10 @@ std::string FormatKittiPoses(const std::vector<Rigid3>& poses) {
 
 std::optional<Rigid3> ReadKittiCalibration(const std::string& path,
                                            std::string* error) {
-  const auto text = ReadWholeFile(path, error);
+  const auto text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   for (const std::string_view line : SplitLines(*text)) {
-    const auto fields = SplitFields(line, " \t");
+    const auto fields = SplitFields(line, kBlanks);
     if (fields.empty() || (fields[0] != "Tr:" && fields[0] != "Tr")) continue;
     std::string reason;
     auto rigid = ParseRows(fields, 1, &reason);

@@ -29,9 +29,9 @@ namespace quatro {
 // than 1e-3 from every rotation.
 std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix);
 
-// Strict: every line must have 12 finite numbers that form a rigid motion.
-// Otherwise returns nullopt and one line in *error, which names file, line and
-// reason.
+// Strict: nullopt and one line in *error, which names file, line and reason,
+// for anything else than 12 finite numbers a line that make a rigid motion.
+// Blank lines may follow the last.
 std::optional<std::vector<Rigid3>> ReadKittiPoses(const std::string& path,
                                                   std::string* error);
 

@@ -30,16 +30,10 @@ struct Row {
   std::vector<std::string> values;
 };
 
-std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
 std::optional<std::vector<Row>> ReadRows(const fs::path& path,
                                          std::size_t num_values,
                                          std::string* error) {
-  const auto text = ReadWholeFile(path.string(), error);
+  const auto text = ReadTextFile(path.string(), error);
   if (!text) return std::nullopt;
   std::vector<Row> rows;
   int line_number = 0;

@@ -13,6 +13,7 @@
 
 #include "experiments/base/number_text.h"
 #include "experiments/datasets/kitti_poses.h"
+#include "experiments/datasets/sequence.h"
 #include "features/base/file.h"
 
 namespace quatro {
@@ -26,15 +27,18 @@ constexpr double kMaxAltitude = 1e5;  // [m]
 
 std::optional<OxtsReading> ReadReading(const std::string& path,
                                        std::string* error) {
-  const auto text = ReadWholeFile(path, error);
+  const auto text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
-  const auto lines = SplitLines(*text);
+  std::vector<std::string_view> lines = SplitLines(*text);
+  while (!lines.empty() && SplitFields(lines.back(), kBlanks).empty()) {
+    lines.pop_back();
+  }
   if (lines.size() != 1) {
     *error =
         path + ": has " + std::to_string(lines.size()) + " lines, must have 1";
     return std::nullopt;
   }
-  const auto fields = SplitFields(lines[0], " \t");
+  const auto fields = SplitFields(lines[0], kBlanks);
   if (fields.size() != kNumNumbers) {
     *error = path + ": line 1 has " + std::to_string(fields.size()) +
              " numbers, must have 30";
@@ -70,10 +74,14 @@ std::optional<OxtsReading> ReadReading(const std::string& path,
   return reading;
 }
 
-// (1)
-Eigen::Vector3d Project(const OxtsReading& reading, double scale) {
+// (1), with the longitude past that of `first`.
+Eigen::Vector3d Project(const OxtsReading& reading,
+                        const OxtsReading& first,
+                        double scale) {
   constexpr double kEarth = 6378137.0;  // Radius [m].
-  return {scale * kEarth * reading.longitude * kDegree,
+  const double longitude =
+      std::remainder(reading.longitude - first.longitude, 360.0);
+  return {scale * kEarth * longitude * kDegree,
           scale * kEarth *
               std::log(std::tan((90.0 + reading.latitude) * kDegree / 2.0)),
           reading.altitude};
@@ -89,7 +97,7 @@ std::optional<std::map<int, OxtsReading>> ReadOxts(const std::string& folder,
   for (fs::directory_iterator it(place, status), end; !status && it != end;
        it.increment(status)) {
     const fs::path& path = it->path();
-    if (path.extension() != ".txt") continue;
+    if (path.extension() != ".txt" || IsHiddenFile(path)) continue;
     const std::string stem = path.stem().string();
     int frame = -1;
     const char* const stop = stem.data() + stem.size();
@@ -122,24 +130,24 @@ std::map<int, Rigid3> PosesOfOxts(const std::map<int, OxtsReading>& readings) {
   if (readings.empty()) return world_from_imu;
   const OxtsReading& first = readings.begin()->second;
   const double scale = std::cos(first.latitude * kDegree);
-  const Eigen::Vector3d origin = Project(first, scale);
+  const Eigen::Vector3d origin = Project(first, first, scale);
   for (const auto& [frame, reading] : readings) {
     world_from_imu[frame] = {WorldFromBody(reading.attitude),
-                             Project(reading, scale) - origin};
+                             Project(reading, first, scale) - origin};
   }
   return world_from_imu;
 }
 
 std::optional<Rigid3> ReadImuToVelodyne(const std::string& path,
                                         std::string* error) {
-  const auto text = ReadWholeFile(path, error);
+  const auto text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   Eigen::Matrix<double, 3, 4> matrix;
   bool has_rotation = false, has_translation = false;
   int line_number = 0;
   for (const std::string_view line : SplitLines(*text)) {
     ++line_number;
-    const auto fields = SplitFields(line, " \t");
+    const auto fields = SplitFields(line, kBlanks);
     if (fields.empty() || (fields[0] != "R:" && fields[0] != "T:")) continue;
     const bool is_rotation = fields[0] == "R:";
     const std::size_t num_numbers = is_rotation ? 9 : 3;

@@ -7,7 +7,8 @@
 //   x = s E lon,   y = s E log tan((90 deg + lat) / 2),   z = alt,        (1)
 //   world_from_imu = R_z(yaw) R_y(pitch) R_x(roll),
 //
-// where x points east, y north and z up.
+// x to the east, y to the north, z up. lon is taken past that of the first
+// frame by the shorter way around, across the date line if need be.
 //
 // Source: development kit of the KITTI raw data, for the definition (Geiger et
 // al., IJRR 2013).

@@ -44,8 +44,9 @@ struct PairTask {
   // The true pose and the INS below are those of the rotated scan.
   double added_yaw = 0.0;
 
-  // Nullopt if the scans do not overlap.
+  // Nullopt: the scans share no place, or nothing is known of the pose.
   std::optional<Rigid3> true_target_from_source;
+  bool is_truth_known = true;
 
   std::optional<PairIns> ins;
 

@@ -4,13 +4,17 @@
 #include "experiments/datasets/pairs_csv.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "experiments/base/csv_line.h"
 #include "experiments/base/number_text.h"
 #include "experiments/datasets/csv_table.h"
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 namespace {
@@ -46,6 +50,15 @@ bool AllEmpty(const CsvRow& row, const char* const (&columns)[n]) {
     if (!row.cells.at(column).empty()) return false;
   }
   return true;
+}
+
+// A path of Windows is taken as one of this system, if it is no file here.
+std::string PathOf(const fs::path& folder, std::string cell) {
+  std::error_code ignored;
+  if (!fs::exists(folder / cell, ignored)) {
+    std::replace(cell.begin(), cell.end(), '\\', '/');
+  }
+  return (folder / cell).string();
 }
 
 bool ReadPose(const CsvRow& row, PairTask* task, std::string* error) {
@@ -112,7 +125,8 @@ std::optional<PairSelection> ReadPairsCsv(const std::string& path,
   if (!table) return std::nullopt;
   for (const char* column : {"source", "target"}) {
     if (!table->Has(column)) {
-      *error = path + ": line 1 has no column " + column;
+      *error = table->where_names + " has no column " + column + ", but " +
+               Quoted(JoinCsvLine(table->columns));
       return std::nullopt;
     }
   }
@@ -139,11 +153,13 @@ std::optional<PairSelection> ReadPairsCsv(const std::string& path,
         *error = row.where + ": " + column + " is empty";
         return std::nullopt;
       }
-      *file = (folder / cell).string();
+      *file = PathOf(folder, cell);
     }
     if (has_pose && !AllEmpty(row, kPose) && !ReadPose(row, &task, error)) {
       return std::nullopt;
     }
+    task.is_truth_known =
+        has_pose || (table->Has("apart") && !row.cells.at("apart").empty());
     if (has_ins && !AllEmpty(row, kIns) && !ReadIns(row, &task, error)) {
       return std::nullopt;
     }

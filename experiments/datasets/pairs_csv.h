@@ -4,9 +4,12 @@
 // is a CSV file whose first line names the columns, in any order:
 //
 //   source,target           files, relative to the list's folder
-//   set                     optional; default: the list's own name
-//   tx,ty,tz,qx,qy,qz,qw    target_from_source [m]; all or none of these
-//                           columns. Empty or missing: no overlap
+//   set                     may be missing: the list's own name
+//   tx,ty,tz,qx,qy,qz,qw    target_from_source [m]; all or none of them. Empty:
+//                           the scans share no place. Missing: nothing is known
+//                           of the pose, and no answer is counted as right or
+//                           wrong, unless there is
+//   apart                   where it is not empty, the scans share no place
 //   source_rpy_deg,target_rpy_deg,ins_std_deg
 //                           the INS: "roll,pitch,yaw" of each scan and the
 //                           standard deviation of each angle; empty: no INS

@@ -12,8 +12,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "features/io/cloud_io.h"
-
 namespace quatro {
 namespace {
 
@@ -33,6 +31,10 @@ std::optional<int> FrameNumber(const std::string& stem) {
 
 }  // namespace
 
+bool IsHiddenFile(const fs::path& path) {
+  return path.filename().string().starts_with('.');
+}
+
 std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
                                                     std::string* error) {
   std::error_code status;
@@ -43,7 +45,10 @@ std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
        it.increment(status)) {
     const fs::path& path = it->path();
     const std::string ending = path.extension().string();
-    if (ending != ".bin" && ending != ".ply" && ending != ".pcd") continue;
+    if (IsHiddenFile(path) ||
+        (ending != ".bin" && ending != ".ply" && ending != ".pcd")) {
+      continue;
+    }
     const auto number = FrameNumber(path.stem().string());
     if (!number) {
       *error = path.string() + ": the name is not a frame number";
@@ -70,14 +75,15 @@ bool SequenceOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (interval < 1) {
     problem << "interval = " << interval << ", must be >= 1";
-  } else if (first_frame < 0) {
-    problem << "first_frame = " << first_frame << ", must be >= 0";
+  } else if (first_frame < -1) {
+    problem << "first_frame = " << first_frame
+            << ", must be -1 (the first file) or >= 0";
   } else if (last_frame != -1 && last_frame < first_frame) {
     problem << "last_frame = " << last_frame
             << ", must be -1 or >= first_frame = " << first_frame;
   }
   *error = problem.str();
-  return error->empty();
+  return error->empty() && reading.IsValid(error);
 }
 
 std::optional<std::vector<int>> FramesOf(
@@ -86,14 +92,15 @@ std::optional<std::vector<int>> FramesOf(
     std::string* error) {
   int last = scans.empty() ? -1 : scans.rbegin()->first;
   if (options.last_frame >= 0) last = std::min(last, options.last_frame);
-  if (options.first_frame > last) {
-    *error = "first_frame = " + std::to_string(options.first_frame) +
-             " is after the last";
+  const int first = options.first_frame >= 0 || scans.empty()
+                        ? options.first_frame
+                        : scans.begin()->first;
+  if (first > last || first < 0) {
+    *error = "first_frame = " + std::to_string(first) + " is after the last";
     return std::nullopt;
   }
-  int previous = options.first_frame - 1;
-  for (auto scan = scans.lower_bound(options.first_frame); previous < last;
-       ++scan) {
+  int previous = first - 1;
+  for (auto scan = scans.lower_bound(first); previous < last; ++scan) {
     const int num_missing = std::min(scan->first, last) - previous - 1;
     if (num_missing > kMaxMissing) {
       *error = scan->second + ": more than " + std::to_string(kMaxMissing) +
@@ -104,8 +111,7 @@ std::optional<std::vector<int>> FramesOf(
     previous = scan->first;
   }
   std::vector<int> frames;
-  for (std::int64_t frame = options.first_frame; frame <= last;
-       frame += options.interval) {
+  for (std::int64_t frame = first; frame <= last; frame += options.interval) {
     frames.push_back(static_cast<int>(frame));
   }
   return frames;
@@ -144,7 +150,7 @@ std::optional<OdometryRun> RunOdometry(const std::map<int, std::string>& scans,
     if (found == scans.end()) {
       unreadable = "there is no file of frame " + std::to_string(frame);
     } else {
-      scan = ReadCloud(found->second, &unreadable);
+      scan = ReadCloud(found->second, options.reading, &unreadable);
     }
     OdometryStep step = odometry->AddScan(scan ? *scan : PointCloud{});
     if (!scan) {

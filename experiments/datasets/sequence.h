@@ -7,6 +7,7 @@
 #ifndef QUATRO_EXPERIMENTS_DATASETS_SEQUENCE_H_
 #define QUATRO_EXPERIMENTS_DATASETS_SEQUENCE_H_
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -14,20 +15,25 @@
 #include <vector>
 
 #include "experiments/odometry/odometry.h"
+#include "features/io/cloud_io.h"
 
 namespace quatro {
 
-// Frame number -> path, for the .bin, .ply and .pcd files in `folder`/velodyne
-// or, without such a folder, in `folder`. Returns nullopt with *error set if
-// there are no scans, if a name is not a number, or if two scans have the same
-// number.
+// Whether the name starts with a dot, as macOS's "._000001.bin" does.
+bool IsHiddenFile(const std::filesystem::path& path);
+
+// Frame number -> path, of the .bin, .ply and .pcd in `folder`/velodyne or,
+// without such a folder, in `folder`. Hidden files are passed over. Nullopt
+// with *error set if there are none, a name is no number, or two have the same.
 std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
                                                     std::string* error);
 
 struct SequenceOptions {
   int interval = 1;
-  int first_frame = 0;
-  int last_frame = -1;  // -1 or too large: the last file's.
+  int first_frame = -1;  // -1: of the first file.
+  int last_frame = -1;   // -1, or after it: of the last file.
+
+  ReadCloudOptions reading;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

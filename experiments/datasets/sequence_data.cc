@@ -42,6 +42,14 @@ void CountMissing(const std::function<std::string(int frame)>& path_of_scan,
   Note(without_pose, data->scans.size(), "no pose", data);
 }
 
+int FirstScan(const SequenceData& data) {
+  for (const auto& [frame, path] : data.scans) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) return frame;
+  }
+  return data.scans.empty() ? 0 : data.scans.begin()->first;
+}
+
 std::string FormatFrames(const std::vector<int>& frames) {
   constexpr int kMaxRuns = 5;
   std::string text;

@@ -50,8 +50,11 @@ struct SequenceData {
 void CountMissing(const std::function<std::string(int frame)>& path_of_scan,
                   SequenceData* data);
 
-// Formats frames as "3, 7-9 and 12". Runs of two or more are joined; after five
-// runs follows "... (41 in all)". `frames` must be sorted.
+// The first frame whose file is there; without one, the first of all, or 0.
+int FirstScan(const SequenceData& data);
+
+// "3, 7-9 and 12": runs of two or more are joined; after five of them,
+// "... (41 in all)". `frames` must be sorted.
 std::string FormatFrames(const std::vector<int>& frames);
 
 // Source to target by (1), named "00/004413-000850", with set "00" and no bin,

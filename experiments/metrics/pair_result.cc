@@ -22,6 +22,7 @@ namespace {
 
 constexpr long double kDegree = 3.14159265358979323846264338327950288L / 180.0L;
 constexpr long double kMillisecond = 1e-3L;
+constexpr char kUnknown[] = "unknown";
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const char* const kColumns[] = {"pair",
@@ -160,7 +161,14 @@ class CellReader {
     return count;
   }
 
-  // Checks the next `n` cells, without consuming them.
+  // Whether the next cell is `text`, which is consumed then.
+  bool Takes(std::string_view text) {
+    if (cells_[next_] != text) return false;
+    ++next_;
+    return true;
+  }
+
+  // Of the next `n` cells, the first of which is not consumed.
   bool AreEmpty(std::size_t n) const {
     const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(next_);
     return std::all_of(first,
@@ -256,7 +264,7 @@ std::string FormatResultCsv(const PairResult& result) {
       result.bin,
       result.method,
       result.status,
-      FormatNumber(result.distance, 1.0L),
+      result.is_truth_known ? FormatNumber(result.distance, 1.0L) : kUnknown,
       FormatNumber(result.true_yaw, kDegree),
       FormatNumber(result.true_tilt, kDegree),
       error ? FormatNumber(error->rotation, kDegree) : "",
@@ -297,7 +305,8 @@ std::optional<PairResult> ParseResultCsv(const std::string& line,
   result.bin = reader.Text();
   result.method = reader.Name();
   result.status = reader.Status();
-  result.distance = reader.Number(0.0, kInfinity);
+  result.is_truth_known = !reader.Takes(kUnknown);
+  if (result.is_truth_known) result.distance = reader.Number(0.0, kInfinity);
   result.true_yaw = reader.Number(-M_PI, M_PI, kDegree);
   result.true_tilt = reader.Number(0.0, M_PI, kDegree);
   result.error = ReadError(&reader);
@@ -318,7 +327,7 @@ std::optional<PairResult> ParseResultCsv(const std::string& line,
 
 std::optional<std::vector<PairResult>> ReadResultCsv(const std::string& path,
                                                      std::string* error) {
-  const auto text = ReadWholeFile(path, error);
+  const auto text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   const auto lines = SplitLines(*text);
   if (lines.empty() || lines.front() != ResultCsvHeader()) {

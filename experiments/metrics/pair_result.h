@@ -40,7 +40,8 @@ struct PairResult {
   // Nullopt if there is no answer.
   std::optional<Rigid3> target_from_source;
 
-  // Properties of the true pose; nullopt if the scans do not overlap.
+  // Of the true pose; nullopt if the scans share no place, or if it is unknown.
+  bool is_truth_known = true;
   std::optional<double> distance;   // |t| [m]
   std::optional<double> true_yaw;   // [rad], -pi .. pi
   std::optional<double> true_tilt;  // [rad], the rotation without its yaw
@@ -67,14 +68,14 @@ struct PairResult {
   }
 };
 
-// Results as CSV: a header line with the names of the columns, then a line per
-// result: pair, set, bin, method, status, distance_m, true_yaw_deg,
-// true_tilt_deg, rotation_error_deg, yaw_error_deg, translation_error_m,
-// probability, matches, consistent, inliers, m00, m01, m02, m03, m10, ... m23
-// (the rows of the pose's matrix), total_ms, stages_ms
-// ("voxels=1.5;features=60"). Unknown values are empty cells. Numbers must be
-// finite; reading them back gives the same bits. Names may contain commas and
-// quotes, but no line breaks.
+// A line of CSV each, under a line of names: pair, set, bin, method, status,
+// distance_m, true_yaw_deg, true_tilt_deg, rotation_error_deg, yaw_error_deg,
+// translation_error_m, probability, matches, consistent, inliers, m00, m01,
+// m02, m03, m10, ... m23 (the rows of the pose's matrix), total_ms, stages_ms
+// ("voxels=1.5;features=60"). What is not known is empty, but distance_m is
+// "unknown" if the true pose is, and empty if the scans share no place. Numbers
+// are written so that reading them gives the same ones bit for bit; they must
+// be finite. Names may hold commas and quotes, not line breaks.
 std::string ResultCsvHeader();
 std::string FormatResultCsv(const PairResult& result);
 

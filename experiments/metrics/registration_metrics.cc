@@ -126,12 +126,14 @@ RegistrationMetrics ComputeMetrics(
       ++metrics.num_unreadable;
       continue;
     }
-    ++(HasTruth(result) ? metrics.num_posed : metrics.num_apart);
+    ++(HasTruth(result)        ? metrics.num_posed
+       : result.is_truth_known ? metrics.num_apart
+                               : metrics.num_unknown);
     const bool succeeds =
         result.IsWithin(limits[0].translation, limits[0].rotation);
     if (result.status == "registered") {
       ++metrics.num_registered;
-      metrics.num_wrong_registered += !succeeds;
+      metrics.num_wrong_registered += !succeeds && result.is_truth_known;
     }
     if (!result.error) continue;
     ++metrics.num_answers;

@@ -65,16 +65,17 @@ struct ErrorAverages {
 };
 
 struct RegistrationMetrics {
-  long num_pairs = 0;       // All given pairs.
-  long num_unreadable = 0;  // Not in the numbers below.
-  long num_apart = 0;       // Scans that do not overlap.
-  long num_posed = 0;       // With a true pose: denominator of (1).
+  long num_pairs = 0;       // All that were given.
+  long num_unreadable = 0;  // In none of the numbers below.
+  long num_apart = 0;       // Of scans that share no place.
+  long num_unknown = 0;     // Whose true pose is not known.
+  long num_posed = 0;       // With truth: what (1) is a share of.
 
-  long num_answers = 0;     // Posed pairs with an answer.
-  long num_registered = 0;  // Of the posed and apart pairs.
+  long num_answers = 0;     // Of the posed.
+  long num_registered = 0;  // Of posed, apart and unknown.
 
-  // False registrations: registered, and beyond the first limit or of scans
-  // that do not overlap.
+  // Registered, and beyond the first limit or of scans that share no place.
+  // Nothing of the unknown.
   long num_wrong_registered = 0;
 
   // One per limit.

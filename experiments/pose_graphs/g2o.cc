@@ -223,7 +223,7 @@ void AppendPose(const Rigid3& pose, int dimension, std::string* text) {
 }  // namespace
 
 std::optional<PoseGraph> ReadG2o(const std::string& path, std::string* error) {
-  const std::optional<std::string> text = ReadWholeFile(path, error);
+  const std::optional<std::string> text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   auto graph = G2oReader().Read(*text, error);
   if (!graph) *error = path + ": " + *error;

@@ -37,8 +37,12 @@ DEFINE_string(poses, "", "File of true poses instead of the data set's own");
 DEFINE_string(
     pairs,
     "",
-    "For pairs: the list, a .csv, or one of KITTI pairs (kitti_10m, kitti_lc) "
-    "whose sequences are in --data");
+    "Of pairs: the list, a .csv, or one of KITTI pairs (kitti_10m, kitti_lc) "
+    "whose sequences --data holds");
+DEFINE_int32(point_floats,
+             0,
+             "On scans: numbers of a point of a .bin: x, y, z, the intensity, "
+             "others; 0: told by the file");
 DEFINE_string(preset,
               "kitti",
               "Parameters of all methods: kitti, paper, reference, indoor, or "
@@ -153,6 +157,11 @@ std::optional<RunMethods> MethodsOfFlags(const std::vector<OwnMethod>& own,
   methods.own = own;
   methods.names = SplitNames(FLAGS_methods);
   methods.use_auto_options = FLAGS_preset == "auto";
+  methods.reading.point_floats = FLAGS_point_floats;
+  if (!methods.reading.IsValid(error)) {
+    *error = "--" + *error;
+    return std::nullopt;
+  }
   const auto options = OptionsOfFlags(error);
   if (!options) return std::nullopt;
   methods.options = *options;

@@ -27,6 +27,7 @@ DECLARE_string(bins);
 DECLARE_int32(min_frame_gap);
 DECLARE_double(min_path);
 DECLARE_int32(max_frames);
+DECLARE_int32(point_floats);
 DECLARE_string(limits);
 DECLARE_uint64(seed);
 DECLARE_string(shard);

@@ -185,6 +185,7 @@ int RunOdometryProtocol() {
   if (!intervals) return Fail(error);
   options.intervals = *intervals;
   options.max_frames = FLAGS_max_frames;
+  options.reading.point_floats = FLAGS_point_floats;
   const auto registration = quatro::OptionsOfFlags(&error);
   if (!registration) return Fail(error);
   options.registration = *registration;

@@ -8,21 +8,19 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
-#include "experiments/base/one_line.h"
+#include "experiments/base/number_text.h"
 #include "features/base/file.h"
+#include "features/io/cloud_text.h"
 
 namespace quatro {
 namespace {
 
 constexpr std::array<std::string_view, 6> kNames = {
     "sx", "sy", "sz", "tx", "ty", "tz"};
-constexpr std::size_t kMaxQuoted = 40;
 
 std::vector<std::string_view> Fields(std::string_view line) {
-  constexpr std::string_view kBlanks = " \t\r";
   const bool has_commas = line.find(',') != std::string_view::npos;
   std::vector<std::string_view> fields;
   while (true) {
@@ -43,28 +41,11 @@ std::vector<std::string_view> Fields(std::string_view line) {
   }
 }
 
-std::optional<double> ParseNumber(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, status] =
-      std::from_chars(field.data(), field.data() + field.size(), value);
-  if (status != std::errc() || end != field.data() + field.size()) {
-    return std::nullopt;
-  }
-  return value;
-}
-
-std::string Quoted(std::string_view text) {
-  const bool is_long = text.size() > kMaxQuoted;
-  const std::string quoted(text.substr(0, kMaxQuoted));
-  return "'" + OneLine(quoted) + (is_long ? "...'" : "'");
-}
-
 }  // namespace
 
 std::optional<MatchedPoints> ReadMatches(const std::string& path,
                                          std::string* error) {
-  const std::optional<std::string> text = ReadWholeFile(path, error);
+  const std::optional<std::string> text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   if (text->empty()) {
     *error = path + ": is empty; expected lines of sx,sy,sz,tx,ty,tz";
@@ -72,20 +53,20 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
   }
 
   std::vector<double> values;
-  std::string_view rest = *text;
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (rest.starts_with(kByteOrderMark)) {
-    rest.remove_prefix(kByteOrderMark.size());
-  }
+  int line_number = 0;
   bool is_first = true;
-  for (int line_number = 1; !rest.empty(); ++line_number) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  for (const std::string_view line : SplitLines(*text)) {
+    ++line_number;
     const std::vector<std::string_view> fields = Fields(line);
     if (fields.empty() || fields.front().starts_with('#')) continue;
 
     const std::string where = path + ": line " + std::to_string(line_number);
+    if (line.find(';') != std::string_view::npos) {
+      *error = where +
+               " has semicolons, must have commas between columns and "
+               "points in numbers";
+      return std::nullopt;
+    }
     if (fields.size() != kNames.size()) {
       *error = where + " has " + std::to_string(fields.size()) +
                " columns, must have 6: sx,sy,sz,tx,ty,tz";

@@ -25,10 +25,14 @@ DEFINE_string(input,
               "",
               "Folder of a drive in KITTI's layout, or of its scans: .bin, "
               ".ply or .pcd named by frame number. Required");
-DEFINE_string(method, "aloam", "Method; see --list_methods");
-DEFINE_bool(list_methods, false, "List the methods and exit");
-DEFINE_int32(interval, 1, "Use every interval-th frame");
-DEFINE_int32(first_frame, 0, "First frame");
+DEFINE_string(method, "aloam", "See --list_methods");
+DEFINE_bool(list_methods, false, "Tell the methods and stop");
+DEFINE_int32(point_floats,
+             0,
+             "Numbers of a point of a .bin: x, y, z, the intensity, others; 0: "
+             "told by the file");
+DEFINE_int32(interval, 1, "Every how many frames");
+DEFINE_int32(first_frame, -1, "The frame to start at; -1: of the first file");
 DEFINE_int32(last_frame,
              -1,
              "Last frame; -1 or too large: that of the last file");
@@ -131,6 +135,7 @@ int Main(int argc, char** argv) {
   options.interval = FLAGS_interval;
   options.first_frame = FLAGS_first_frame;
   options.last_frame = FLAGS_last_frame;
+  options.reading.point_floats = FLAGS_point_floats;
   if (!options.IsValid(&error)) return Fail(error);
   const auto outside = quatro::ParseOutside(FLAGS_outside, &error);
   if (!outside) return Fail(error);

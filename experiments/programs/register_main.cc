@@ -23,10 +23,12 @@
 #include "robust/registration/presets.h"
 #include "robust/registration/registration.h"
 
-DEFINE_string(source,
-              "",
-              "The source cloud, the one to move: .bin (KITTI), .ply or .pcd");
-DEFINE_string(target, "", "The target cloud");
+DEFINE_string(source, "", "The cloud to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(target, "", "The cloud to move it onto");
+DEFINE_int32(point_floats,
+             0,
+             "Numbers of a point of a .bin: x, y, z, the intensity, others; 0: "
+             "told by the file");
 DEFINE_string(preset,
               "kitti",
               "kitti (64 beams outdoors), paper or reference (as published), "
@@ -217,9 +219,11 @@ int Main(int argc, char** argv) {
   if (!ins) return Fail(error);
   if (!OptionsFromFlags({}, {}, *ins, &error)) return Fail(error);
 
-  const auto source = quatro::ReadCloud(FLAGS_source, &error);
+  const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
+  if (!reading.IsValid(&error)) return Fail("--" + error);
+  const auto source = quatro::ReadCloud(FLAGS_source, reading, &error);
   if (!source) return Fail(error);
-  const auto target = quatro::ReadCloud(FLAGS_target, &error);
+  const auto target = quatro::ReadCloud(FLAGS_target, reading, &error);
   if (!target) return Fail(error);
   auto options = OptionsFromFlags(*source, *target, *ins, &error);
   if (!options) return Fail(error);

@@ -23,7 +23,11 @@ DEFINE_string(scans,
 DEFINE_string(odometry,
               "",
               "g2o file in space with a pose for each scan and edges between "
-              "consecutive poses, which are assumed to be inliers");
+              "those that follow each other, which are taken as right");
+DEFINE_int32(point_floats,
+             0,
+             "Numbers of a point of a .bin: x, y, z, the intensity, others; 0: "
+             "told by the file");
 DEFINE_string(preset, "kitti", "kitti, paper, reference or indoor");
 DEFINE_string(loss,
               "gnc",
@@ -123,9 +127,11 @@ int Main(int argc, char** argv) {
                 std::to_string(graph->ids[i - 1]) + " to pose " +
                 std::to_string(graph->ids[i]) + " (the next one)");
   }
+  const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
+  if (!reading.IsValid(&error)) return Fail("--" + error);
   std::vector<quatro::PointCloud> scans;
   for (const std::string& path : paths) {
-    auto scan = quatro::ReadCloud(path, &error);
+    auto scan = quatro::ReadCloud(path, reading, &error);
     if (!scan) return Fail(error);
     scans.push_back(std::move(*scan));
   }

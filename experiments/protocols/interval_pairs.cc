@@ -15,8 +15,9 @@ bool IntervalPairOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
   if (intervals.empty()) {
     problem << "intervals is empty, must have one";
-  } else if (first_frame < 0) {
-    problem << "first_frame = " << first_frame << ", must be >= 0";
+  } else if (first_frame < -1) {
+    problem << "first_frame = " << first_frame
+            << ", must be -1 (the first scan) or >= 0";
   } else if (last_frame != -1 && last_frame < first_frame) {
     problem << "last_frame = " << last_frame
             << ", must be -1 or >= first_frame = " << first_frame;
@@ -41,12 +42,13 @@ std::optional<PairSelection> SelectIntervalPairs(
   const int last = options.last_frame >= 0 ? options.last_frame
                    : data.scans.empty()    ? -1
                                            : data.scans.rbegin()->first;
+  const int first =
+      options.first_frame >= 0 ? options.first_frame : FirstScan(data);
   for (const int interval : options.intervals) {
     std::vector<PairTask> tasks;
     int num_without_pose = 0;
     const int step = options.is_chain ? interval : 1;
-    for (std::int64_t i = options.first_frame; i + interval <= last;
-         i += step) {
+    for (std::int64_t i = first; i + interval <= last; i += step) {
       const int target = static_cast<int>(i);
       auto task = MakePairTask(data, target + interval, target);
       if (!task) {

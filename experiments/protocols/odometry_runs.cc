@@ -38,7 +38,9 @@ std::optional<PlannedRun> Plan(const SequenceData& drive,
                                const std::string& folder,
                                std::string* error) {
   PlannedRun run{&drive, method, interval, {}, {}, {}, {}};
+  const int first = FirstScan(drive);
   for (const auto& [frame, path] : drive.scans) {
+    if (frame < first) continue;
     if (max_frames > 0 && static_cast<int>(run.scans.size()) == max_frames) {
       break;
     }
@@ -128,14 +130,15 @@ std::optional<OdometryResult> ReadRun(const PlannedRun& plan,
 }
 
 bool RunOne(const PlannedRun& plan,
-            const RegistrationOptions& registration,
+            const OdometryRunOptions& all,
             const std::function<void(const OdometryRunProgress&)>& progress,
             std::string* error) {
   const std::unique_ptr<Odometry> odometry =
-      MakeOdometry(plan.method, registration, error);
+      MakeOdometry(plan.method, all.registration, error);
   if (!odometry) return false;
   SequenceOptions options;
   options.interval = plan.interval;
+  options.reading = all.reading;
   const auto run = RunOdometry(
       plan.scans,
       options,
@@ -162,6 +165,7 @@ bool OdometryRunOptions::IsValid(std::string* error) const {
   for (const int interval : intervals) {
     SequenceOptions options;
     options.interval = interval;
+    options.reading = reading;
     if (!options.IsValid(error)) return false;
   }
   if (max_frames < 0) {
@@ -197,7 +201,7 @@ std::optional<std::vector<OdometryResult>> RunOdometries(
         if (!plan) return std::nullopt;
         auto result = ReadRun(*plan, error);
         if (!result && error->empty()) {
-          if (!RunOne(*plan, options.registration, progress, error)) {
+          if (!RunOne(*plan, options, progress, error)) {
             return std::nullopt;
           }
           result = ReadRun(*plan, error);

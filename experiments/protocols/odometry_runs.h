@@ -26,6 +26,7 @@
 
 #include "experiments/datasets/sequence_data.h"
 #include "experiments/odometry/table_two.h"
+#include "features/io/cloud_io.h"
 #include "robust/registration/registration.h"
 
 namespace quatro {
@@ -35,6 +36,7 @@ struct OdometryRunOptions {
   std::vector<int> intervals = {1, 3, 5};
   int max_frames = 0;  // Per drive, from its start; 0: all.
   RegistrationOptions registration;
+  ReadCloudOptions reading;
 
   // Returns false and says why in *error if a value is out of range or a method
   // is unknown.

@@ -32,6 +32,7 @@ std::string FormatPairReport(ViewedPair pair,
   PairResult result;
   result.pair = pair.name;
   result.method = answer.method;
+  result.is_truth_known = pair.true_target_from_source.has_value();
   FillResult(answer.summary, pair.true_target_from_source, &result);
   ViewOptions options;
   options.max_points = kMaxPoints;

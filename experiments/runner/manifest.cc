@@ -163,7 +163,7 @@ std::optional<Manifest> ParseManifest(const std::string& text,
 
 std::optional<Manifest> ReadManifest(const std::string& path,
                                      std::string* error) {
-  const auto text = ReadWholeFile(path, error);
+  const auto text = ReadTextFile(path, error);
   if (!text) return std::nullopt;
   auto manifest = ParseManifest(*text, error);
   if (!manifest) *error = path + ": " + *error;

@@ -76,6 +76,7 @@ std::string ChecksumOf(const std::vector<PairTask>& tasks) {
     if (task.true_target_from_source) {
       AppendBits(*task.true_target_from_source, &bytes);
     }
+    if (!task.is_truth_known) bytes += "unknown\n";
     if (task.ins) {
       AppendBits(task.ins->source, &bytes);
       AppendBits(task.ins->target, &bytes);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "experiments/programs/methods.h"
-#include "features/io/cloud_io.h"
 #include "robust/registration/presets.h"
 
 namespace quatro {
@@ -51,6 +50,7 @@ PairResult BlankResult(const PairTask& task) {
   result.pair = task.name;
   result.set = task.set;
   result.bin = task.bin;
+  result.is_truth_known = task.is_truth_known;
   if (task.true_target_from_source) {
     const Rigid3& truth = *task.true_target_from_source;
     const double yaw = Yaw(truth.rotation);
@@ -90,15 +90,16 @@ bool RunMethods::IsValid(std::string* error) const {
       return false;
     }
   }
-  return options.IsValid(error);
+  return reading.IsValid(error) && options.IsValid(error);
 }
 
 TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
   const PairResult blank = BlankResult(task);
   std::string error;
-  std::optional<PointCloud> source = ReadCloud(task.source, &error);
+  std::optional<PointCloud> source =
+      ReadCloud(task.source, methods.reading, &error);
   std::optional<PointCloud> target;
-  if (source) target = ReadCloud(task.target, &error);
+  if (source) target = ReadCloud(task.target, methods.reading, &error);
   if (!target) return AllUnreadable(blank, methods.names, error);
   if (task.added_yaw != 0.0) {
     source->points = RotationZ(task.added_yaw) * source->points;

@@ -14,6 +14,7 @@
 #include "experiments/metrics/pair_result.h"
 #include "experiments/programs/own_method.h"
 #include "experiments/report/pair_view.h"
+#include "features/io/cloud_io.h"
 #include "robust/registration/ins.h"
 #include "robust/registration/registration.h"
 
@@ -31,7 +32,9 @@ struct RunMethods {
   // (robust/registration/presets.h), except for threads and seed.
   bool use_auto_options = false;
 
-  // Options of the views for the report; the seed above is used.
+  ReadCloudOptions reading;
+
+  // Of what tasks keep for the report, but for the seed, which is that above.
   ViewOptions view = {};
 
   // How a method that needs an INS uses the pair's INS. A pair without INS is

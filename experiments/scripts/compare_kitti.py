@@ -55,9 +55,9 @@ def inverse(pose):
 def read_matrices(path, prefix=""):
     """3x4 matrices of the lines that start with `prefix`, extended to 4x4."""
     try:
-        lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+        lines = pathlib.Path(path).read_text(encoding="utf-8-sig").splitlines()
         rows = [[float(x) for x in line[len(prefix):].split()] for line in lines
-                if line.startswith(prefix)]
+                if line.strip() and line.startswith(prefix)]
     except (OSError, UnicodeDecodeError, ValueError) as error:
         raise BadInput(f"{path}: {reason(error)}") from None
     if not rows or any(len(row) != 12 for row in rows):

@@ -66,7 +66,7 @@ def summarize(method, results):
     memory = values("peak_mb", results)
     return (method, str(sum(result["status"] == "registered" for result in results)),
             *(str(sum(int(result[key]) for result in posed)) for key in run_pairs.SUCCESS),
-            str(sum(int(result["wrong_but_registered"]) for result in results)),
+            str(sum(int(result["wrong_but_registered"] or 0) for result in results)),
             middle("translation_error_m", good, 3), middle("rotation_error_deg", good, 2),
             time(True), time(False), f"{max(memory):.0f}" if memory else "-")
 

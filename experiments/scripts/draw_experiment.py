@@ -44,7 +44,7 @@ FLOOR = 1e-4
 
 
 def parse_optional(text, where):
-    return None if text == "" else parse_number(text, where)
+    return None if text in ("", "unknown") else parse_number(text, where)
 
 
 def parse_limit(text):

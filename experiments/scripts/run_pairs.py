@@ -11,8 +11,9 @@ optionally set. With tx,ty,tz,qx,qy,qz,qw a pair's pose is known,
     p_in_target = R(q) p_in_source + t,
 
 and the errors of an estimate are the angle of R_true^T R, the difference of the
-two yaws, and |t - t_true|. Without them, or where a line leaves them empty, the
-scans share no place, and the right answer is not to register them.
+two yaws, and |t - t_true|. Where a line leaves them empty, or without them where a
+column "apart" is not empty, the scans share no place, and the right answer is not to
+register them. Otherwise nothing is known of the pose, and no answer is wrong.
 
 The summary is printed on standard output, progress on standard error. Run the same
 command again to resume an interrupted run: completed pairs are in a file with the
@@ -52,7 +53,8 @@ RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "ya
 
 DEFAULT_PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/bin/quatro_register"
 
-Pair = collections.namedtuple("Pair", "set source target pose")  # pose: (R, t) or None
+# pose: (R, t), or None if the scans share no place or, not is_known, nobody knows.
+Pair = collections.namedtuple("Pair", "set source target pose is_known", defaults=(True,))
 
 
 def rotation_from_quaternion(x, y, z, w):
@@ -98,7 +100,8 @@ def read_pairs(path, excluded):
                 raise BadInput(f"{where}, column {name}: there is no file {row[name]!r}")
         has_pose = given and any(row[name] for name in POSE)
         pairs.append(Pair(row.get("set") or pathlib.Path(path).stem, row["source"], row["target"],
-                          parse_pose(row, where) if has_pose else None))
+                          parse_pose(row, where) if has_pose else None,
+                          bool(given or row.get("apart"))))
     unknown = set(excluded) - {row.get("set") for _, row in rows}
     if unknown:
         raise BadInput(f"--exclude={min(unknown)}: {path} has no such set")
@@ -152,7 +155,7 @@ def measure(pair, report):
     features = report.get("evidence", {}).get("features", {})
     result["features"] = ";".join(f"{name}={value:.6g}" for name, value in features.items())
     if pair.pose is None:
-        result["wrong_but_registered"] = int(registered)
+        result["wrong_but_registered"] = int(registered) if pair.is_known else ""
         return result
     result.update(dict.fromkeys(SUCCESS, 0))
     matrix = report["target_from_source"]
@@ -301,9 +304,11 @@ def format_summary(results):
         # Without a true pose there is no success to count.
         successes = ["-" if all(result[key] == "" for result in group)
                      else str(sum(result[key] or 0 for result in group)) for key in SUCCESS]
+        wrong = [result["wrong_but_registered"] for result in group]
         rows.append((name, str(len(group)),
                      str(sum(result["status"] == "registered" for result in group)), *successes,
-                     str(sum(result["wrong_but_registered"] for result in group)),
+                     "-" if all(value == "" for value in wrong)
+                     else str(sum(value or 0 for value in wrong)),
                      f"{statistics.median(times):.0f}" if times else "-"))
     widths = [max(map(len, column)) for column in zip(*rows)]
     return "".join(

@@ -49,21 +49,29 @@ def parse_number(text, where):
 
 
 def read_rows(path, columns=()):
-    """(line, row) for each row, and the names of the columns, which must include `columns`."""
+    """(line, row) of each, and the names of the columns, of which `columns` must be there.
+
+    Takes a byte order mark, every line's end, blank lines, and blanks around cells.
+    """
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
-            reader = csv.DictReader(file)
-            names = reader.fieldnames or []
-            rows = [(reader.line_num, row) for row in reader]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+            reader = csv.reader(file, skipinitialspace=True)
+            lines = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+    except UnicodeDecodeError:
+        raise BadInput(f"{path}: is not UTF-8 text; save it as UTF-8") from None
+    except (OSError, csv.Error) as error:
         raise BadInput(f"{path}: {reason(error)}") from None
+    lines = [(line, cells) for line, cells in lines if cells and cells != [""]]
+    names = lines[0][1] if lines else []
+    if len(names) == 1 and ";" in names[0]:
+        raise BadInput(f"{path}: line 1 has semicolons, must have commas between columns")
     for name in columns:
         if name not in names:
             raise BadInput(f"{path}: there is no column {name}")
-    for line, row in rows:
-        if None in row or None in row.values():
+    for line, cells in lines[1:]:
+        if len(cells) != len(names):
             raise BadInput(f"{path}: line {line} must have {len(names)} columns")
-    return rows, names
+    return [(line, dict(zip(names, cells))) for line, cells in lines[1:]], names
 
 
 def check_writable(path, inputs=()):

@@ -59,6 +59,7 @@ void AddSummaryColumns(const TableOptions& options,
   for (const char* const name : {"pairs",
                                  "unreadable",
                                  "apart",
+                                 "no truth",
                                  "answers",
                                  "registered",
                                  "false registrations"}) {
@@ -82,11 +83,15 @@ void AddSummaryCells(const std::vector<PairResult>& results,
   for (const long count : {metrics.num_pairs,
                            metrics.num_unreadable,
                            metrics.num_apart,
+                           metrics.num_unknown,
                            metrics.num_answers,
-                           metrics.num_registered,
-                           metrics.num_wrong_registered}) {
+                           metrics.num_registered}) {
     row->push_back(std::to_string(count));
   }
+  const bool has_truth = metrics.num_posed + metrics.num_apart > 0;
+  row->push_back(has_truth || metrics.num_unknown == 0
+                     ? std::to_string(metrics.num_wrong_registered)
+                     : "");
   for (std::size_t i = 0; i < options.limits.size(); ++i) {
     AddCells(metrics.SuccessRate(i),
              metrics.success_intervals[i],

@@ -15,6 +15,9 @@
 #include <regex>
 #include <system_error>
 
+#include "features/io/cloud_text.h"
+#include "features/io/foreign_file.h"
+
 namespace quatro {
 namespace {
 
@@ -109,6 +112,29 @@ std::optional<std::string> ReadWholeFile(const std::string& path,
   }
   bytes.resize(size);
   return bytes;
+}
+
+std::optional<std::string> ReadTextFile(const std::string& path,
+                                        std::string* error) {
+  const auto bytes = ReadWholeFile(path, error);
+  if (!bytes) return std::nullopt;
+  const std::string_view foreign = DescribeForeignFile(*bytes);
+  if (!foreign.empty()) {
+    *error = path + ": " + std::string(foreign);
+    return std::nullopt;
+  }
+  std::string_view rest = *bytes;
+  SkipByteOrderMark(&rest);
+  std::string text;
+  text.reserve(rest.size());
+  while (!rest.empty()) {
+    const std::string_view line = TakeLine(&rest);
+    const bool has_end =
+        line.data() + line.size() < bytes->data() + bytes->size();
+    text.append(line);
+    if (has_end) text += '\n';
+  }
+  return text;
 }
 
 std::unique_ptr<PendingFile> PendingFile::Write(const std::string& path,

@@ -17,9 +17,13 @@ namespace quatro {
 std::optional<std::string> ReadWholeFile(const std::string& path,
                                          std::string* error);
 
-// A temporary file next to `path`, named `path`.tmp.<process>.<number> and
-// flushed to the disk. It is removed with this object unless it was renamed to
-// `path`.
+// As ReadWholeFile(), for text: without a byte order mark, every line's end,
+// LF, CR LF or CR, as LF. Refuses what is no such text at all (foreign_file.h).
+std::optional<std::string> ReadTextFile(const std::string& path,
+                                        std::string* error);
+
+// `path`.tmp.<process>.<number>, flushed to the disk; removed with this object
+// unless it was renamed to `path`.
 class PendingFile {
  public:
   // Returns nullptr and sets *error if the file cannot be written.

@@ -28,6 +28,17 @@ void Append(T value, std::string* bytes) {
   bytes->append(raw.data(), raw.size());
 }
 
+// But for the case of ASCII letters.
+bool EqualInAnyCase(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [&](char c, char d) {
+        return lower(c) == lower(d);
+      });
+}
+
 }  // namespace
 
 std::size_t SizeOf(ScalarType type) {
@@ -87,7 +98,12 @@ void AppendLittleEndian(double value, std::string* bytes) {
 std::optional<CloudColumns> FindCloudColumns(
     const std::vector<std::string_view>& names, std::string* error) {
   const auto find = [&](std::string_view name) -> std::optional<std::size_t> {
-    const auto found = std::find(names.begin(), names.end(), name);
+    auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      found = std::find_if(names.begin(), names.end(), [&](auto other) {
+        return EqualInAnyCase(other, name);
+      });
+    }
     if (found == names.end()) return std::nullopt;
     return static_cast<std::size_t>(found - names.begin());
   };
@@ -96,14 +112,14 @@ std::optional<CloudColumns> FindCloudColumns(
   constexpr std::array<std::string_view, 3> kCoordinates = {"x", "y", "z"};
   for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
     columns[i] = find(kCoordinates[i]);
-    if (std::count(names.begin(), names.end(), kCoordinates[i]) != 1) {
+    if (!columns[i] ||
+        std::count(names.begin(), names.end(), names[*columns[i]]) != 1) {
       *error = std::string(kCoordinates[i]) +
                ": must be there exactly once and as a single number";
       return std::nullopt;
     }
   }
-  for (const std::string_view name :
-       {"intensity", "scalar_intensity", "scalar_Intensity", "reflectance"}) {
+  for (const char* name : {"intensity", "scalar_intensity", "reflectance"}) {
     if (!columns[3]) columns[3] = find(name);
   }
   return columns;

@@ -9,6 +9,7 @@
 
 #include "features/base/file.h"
 #include "features/io/cloud_text.h"
+#include "features/io/foreign_file.h"
 #include "features/io/kitti_bin.h"
 #include "features/io/pcd.h"
 #include "features/io/ply.h"
@@ -32,13 +33,37 @@ std::string Ending(const std::string& path) {
 
 std::optional<PointCloud> Parse(std::string_view ending,
                                 std::string_view bytes,
+                                const ReadCloudOptions& options,
                                 std::string* error) {
-  if (ending == ".bin") return ParseKittiBin(bytes, error);
+  if (ending == ".bin") {
+    // Lines of equal length would have columns, too.
+    if (LooksLikeText(bytes)) {
+      *error = "is text, not the binary numbers of a .bin";
+      return std::nullopt;
+    }
+    return ParseKittiBin(bytes, options.point_floats, error);
+  }
   if (ending == ".ply") return ParsePly(bytes, error);
   return ParsePcd(bytes, error);
 }
 
-// Only clouds that ReadCloud() would read back are written.
+// In place of a parser's reason, if the file is no such file at all.
+std::string ReasonOf(std::string_view ending,
+                     std::string_view bytes,
+                     const std::string& reason) {
+  const std::string_view foreign = DescribeForeignFile(bytes);
+  if (!foreign.empty()) return std::string(foreign);
+  if (ending != ".pcd" && bytes.starts_with("# .PCD")) {
+    return "is a PCD file; name it .pcd";
+  }
+  if (ending != ".ply" &&
+      (bytes.starts_with("ply\n") || bytes.starts_with("ply\r"))) {
+    return "is a PLY file; name it .ply";
+  }
+  return reason;
+}
+
+// What ReadCloud would not read back is not written.
 bool IsWritable(const PointCloud& cloud, std::string* error) {
   if (cloud.points.cols() == 0) {
     *error = "points: there are none";
@@ -59,8 +84,25 @@ bool IsWritable(const PointCloud& cloud, std::string* error) {
 
 }  // namespace
 
+bool ReadCloudOptions::IsValid(std::string* error) const {
+  constexpr int kMax = 64;
+  const bool is_valid =
+      point_floats == 0 || (point_floats >= 3 && point_floats <= kMax);
+  *error = is_valid ? ""
+                    : "point_floats = " + std::to_string(point_floats) +
+                          ", must be 0 (told by the file) or in [3, 64]";
+  return is_valid;
+}
+
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     std::string* error) {
+  return ReadCloud(path, ReadCloudOptions(), error);
+}
+
+std::optional<PointCloud> ReadCloud(const std::string& path,
+                                    const ReadCloudOptions& options,
+                                    std::string* error) {
+  if (!options.IsValid(error)) return std::nullopt;
   const std::string ending = Ending(path);
   if (ending != ".bin" && ending != ".ply" && ending != ".pcd") {
     *error =
@@ -77,11 +119,11 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
   std::string reason;
   std::optional<PointCloud> cloud;
   try {
-    cloud = Parse(ending, *bytes, &reason);
+    cloud = Parse(ending, *bytes, options, &reason);
   } catch (const std::exception&) {  // The standard library's and Eigen's.
     reason = "points: do not fit in memory";
   }
-  if (!cloud) *error = path + ": " + reason;
+  if (!cloud) *error = path + ": " + ReasonOf(ending, *bytes, reason);
   return cloud;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Point cloud files: KITTI .bin, PLY and PCD, distinguished by their extension.
+// Point cloud files: .bin without a header, PLY and PCD, told apart by their
+// ending.
 //
 // A file is read completely or not at all. A file that is truncated, malformed
 // or without a single finite point is an error; its one-line message names the
@@ -18,13 +19,29 @@
 
 namespace quatro {
 
-// Reads `.bin`, `.ply` or `.pcd`. Returns nullopt and sets *error on failure.
+struct ReadCloudOptions {
+  // Numbers of a point of a .bin, 3 to 64: x, y, z, from four on the intensity,
+  // and what is passed over. 0: told by the numbers (bin_layout.h).
+  int point_floats = 0;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// Reads `.bin`, `.ply` or `.pcd`. Returns nullopt and sets *error otherwise.
+std::optional<PointCloud> ReadCloud(const std::string& path,
+                                    const ReadCloudOptions& options,
+                                    std::string* error);
+
+// With default options.
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     std::string* error);
 
 // Writes `.bin` (float32 x y z intensity), `.pcd` (binary, float32 x y z) or
-// `.ply` (binary little-endian, double x y z). The last two get a float
-// intensity if the cloud has one. Returns false and sets *error on failure.
+// `.ply` (binary little-endian, double x y z), the last two with a float
+// intensity where there is one. Returns false and sets *error if it can't. A
+// .bin whose intensities are spread as its coordinates are is read again with
+// point_floats = 4 alone.
 bool WriteCloud(const PointCloud& cloud,
                 const std::string& path,
                 std::string* error);

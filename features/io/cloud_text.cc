@@ -5,27 +5,60 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <locale>
+#include <sstream>
 #include <system_error>
 
 namespace quatro {
 namespace {
 
-template <typename T>
-std::optional<T> ParseWhole(std::string_view word) {
-  T value{};
-  const char* const end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, value);
-  if (code != std::errc() || stop != end) return std::nullopt;
+// A number beyond the range of double, for which from_chars() does not tell
+// whether it is too small or too large.
+std::optional<double> ParseOutOfRange(std::string_view word) {
+  std::istringstream stream{std::string(word)};
+  stream.imbue(std::locale::classic());
+  double value = 1.0;
+  stream >> value;
+  if (std::abs(value) >= 1.0) return std::nullopt;
   return value;
+}
+
+// Up to `end`, which is removed, too.
+std::string_view TakeUntil(std::size_t end, std::string_view* text) {
+  const std::string_view line = text->substr(0, end);
+  text->remove_prefix(std::min(line.size() + 1, text->size()));
+  return line;
 }
 
 }  // namespace
 
+void SkipByteOrderMark(std::string_view* text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text->starts_with(kByteOrderMark)) {
+    text->remove_prefix(kByteOrderMark.size());
+  }
+}
+
 std::string_view TakeLine(std::string_view* text) {
-  const std::size_t end = text->find('\n');
-  std::string_view line = text->substr(0, end);
-  text->remove_prefix(std::min(line.size() + 1, text->size()));
+  const std::size_t end = text->find_first_of("\r\n");
+  const bool is_cr = end < text->size() && (*text)[end] == '\r';
+  const std::string_view line = TakeUntil(end, text);
+  if (is_cr && text->starts_with('\n')) text->remove_prefix(1);
+  return line;
+}
+
+HeaderLines::HeaderLines(std::string_view* text) : text_(text) {
+  SkipByteOrderMark(text_);
+  const std::size_t end = text_->find_first_of("\r\n");
+  ends_in_cr_ = end < text_->size() && (*text_)[end] == '\r' &&
+                text_->substr(end + 1, 1) != "\n";
+}
+
+std::string_view HeaderLines::Take() {
+  std::string_view line =
+      TakeUntil(text_->find(ends_in_cr_ ? '\r' : '\n'), text_);
   if (line.ends_with('\r')) line.remove_suffix(1);
   return line;
 }
@@ -49,11 +82,20 @@ std::uint64_t CountLines(std::string_view text) {
 
 std::optional<double> ParseNumber(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  return ParseWhole<double>(word);
+  double value = 0.0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, code] = std::from_chars(word.data(), end, value);
+  if (stop != end || code == std::errc::invalid_argument) return std::nullopt;
+  if (code != std::errc()) return ParseOutOfRange(word);
+  return value;
 }
 
 std::optional<std::uint64_t> ParseCount(std::string_view word) {
-  return ParseWhole<std::uint64_t>(word);
+  std::uint64_t value = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, code] = std::from_chars(word.data(), end, value);
+  if (code != std::errc() || stop != end) return std::nullopt;
+  return value;
 }
 
 std::string Quoted(std::string_view word) {

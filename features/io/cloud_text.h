@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Words and numbers in the text parts of cloud files, independent of the
-// locale.
+// Lines, words and numbers in text files, whatever the locale. A byte order
+// mark of UTF-8 is passed over, and lines end in LF, CR LF or CR.
 
 #ifndef QUATRO_FEATURES_IO_CLOUD_TEXT_H_
 #define QUATRO_FEATURES_IO_CLOUD_TEXT_H_
@@ -13,8 +13,26 @@
 
 namespace quatro {
 
-// Removes the first line from *text and returns it without its LF or CRLF.
+// Removes the byte order mark of UTF-8, if *text starts with it.
+void SkipByteOrderMark(std::string_view* text);
+
+// Removes the first line from *text and returns it without its end.
 std::string_view TakeLine(std::string_view* text);
+
+// The lines of a header that binary data follow. If the first line ends in CR
+// alone, all do, and a LF after the last is the first byte of the data.
+class HeaderLines {
+ public:
+  // Skips the byte order mark of *text, from which Take() removes lines.
+  explicit HeaderLines(std::string_view* text);
+
+  // As TakeLine().
+  std::string_view Take();
+
+ private:
+  std::string_view* text_;
+  bool ends_in_cr_;
+};
 
 // Removes the first word from *line and returns it; empty if there is none.
 std::string_view TakeWord(std::string_view* line);
@@ -22,9 +40,8 @@ std::string_view TakeWord(std::string_view* line);
 // The number of lines with at least one word.
 std::uint64_t CountLines(std::string_view text);
 
-// Parses the whole word as a decimal number, "nan" or "inf", with or without a
-// sign. Returns nullopt for anything else, and for numbers outside the range of
-// a double.
+// The whole word as a decimal number, "nan" or "inf", with or without a sign.
+// A number too small for a double is 0 with its sign; one too large is nullopt.
 std::optional<double> ParseNumber(std::string_view word);
 
 // Parses the whole word as a count: digits only.

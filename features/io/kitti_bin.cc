@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "features/io/bin_layout.h"
 #include "features/io/cloud_fields.h"
 
 namespace quatro {
@@ -18,18 +19,18 @@ constexpr std::size_t kPointSize = 4 * sizeof(float);
 }  // namespace
 
 std::optional<PointCloud> ParseKittiBin(std::string_view bytes,
+                                        int point_floats,
                                         std::string* error) {
-  if (bytes.size() % kPointSize != 0) {
-    *error = "size " + std::to_string(bytes.size()) +
-             " bytes is not a multiple of 16 (x y z intensity as float32)";
-    return std::nullopt;
-  }
-  CloudBuilder builder(bytes.size() / kPointSize, /*has_intensity=*/true);
-  for (std::size_t start = 0; start < bytes.size(); start += kPointSize) {
-    std::array<double, 4> row;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      row[i] = DecodeScalar(bytes.data() + start + i * sizeof(float),
-                            ScalarType::kFloat32,
+  const auto layout = FindBinLayout(bytes, point_floats, error);
+  if (!layout) return std::nullopt;
+  const std::size_t point_size = layout->PointSize();
+  const bool has_intensity = layout->num_values > 3;
+  CloudBuilder builder(bytes.size() / point_size, has_intensity);
+  for (std::size_t start = 0; start < bytes.size(); start += point_size) {
+    std::array<double, 4> row = {};
+    for (std::size_t i = 0; i < (has_intensity ? 4u : 3u); ++i) {
+      row[i] = DecodeScalar(bytes.data() + start + i * SizeOf(layout->type),
+                            layout->type,
                             std::endian::little);
     }
     builder.Add(row);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// KITTI .bin: little-endian float32 x y z intensity, without a header.
+// .bin: little-endian numbers without a header. KITTI's layout, which is the
+// one that is written, is float32 x y z intensity; see bin_layout.h for others.
 
 #ifndef QUATRO_FEATURES_IO_KITTI_BIN_H_
 #define QUATRO_FEATURES_IO_KITTI_BIN_H_
@@ -13,8 +14,11 @@
 
 namespace quatro {
 
-// Returns nullopt and sets *error, without a path, if `bytes` contain no cloud.
+// A point has `point_floats` numbers, x y z and, if there are four, an
+// intensity first; 0: as FindBinLayout() finds. Sets *error, without a path, if
+// there is no cloud in `bytes`.
 std::optional<PointCloud> ParseKittiBin(std::string_view bytes,
+                                        int point_floats,
                                         std::string* error);
 
 // Coordinates are rounded to float32. If the cloud has no intensity, zeros are

@@ -40,9 +40,11 @@ std::optional<Entries> TakeEntries(std::string_view* bytes,
                                                        "POINTS",
                                                        "DATA"};
   Entries entries;
+  HeaderLines lines(bytes);
   for (int line_number = 1; !bytes->empty(); ++line_number) {
-    std::string_view line = TakeLine(bytes);
-    const std::string_view name = TakeWord(&line);
+    std::string_view line = lines.Take();
+    std::string_view name = TakeWord(&line);
+    if (name == "COLUMNS") name = "FIELDS";  // As version .5 called them.
     if (name.empty() || name.starts_with('#')) continue;
     if (std::find(kNames.begin(), kNames.end(), name) == kNames.end() ||
         !entries.emplace(name, SplitWords(line)).second) {
@@ -56,8 +58,12 @@ std::optional<Entries> TakeEntries(std::string_view* bytes,
   return std::nullopt;
 }
 
+// PCL takes lower case, too.
 std::optional<ScalarType> ParseType(std::string_view type,
                                     std::string_view size) {
+  if (type == "f") type = "F";
+  if (type == "i") type = "I";
+  if (type == "u") type = "U";
   if (type == "F" && size == "4") return ScalarType::kFloat32;
   if (type == "F" && size == "8") return ScalarType::kFloat64;
   if (type == "I" && size == "1") return ScalarType::kInt8;
@@ -71,12 +77,14 @@ std::optional<ScalarType> ParseType(std::string_view type,
   return std::nullopt;
 }
 
-// Parses FIELDS, SIZE, TYPE and COUNT.
+// FIELDS, SIZE, TYPE and COUNT; without the last three all are single floats.
 bool ParseFields(Entries* entries, PcdHeader* header, std::string* error) {
   const Words& names = (*entries)["FIELDS"];
-  const Words& sizes = (*entries)["SIZE"];
-  const Words& types = (*entries)["TYPE"];
+  Words& sizes = (*entries)["SIZE"];
+  Words& types = (*entries)["TYPE"];
   Words& counts = (*entries)["COUNT"];
+  if (sizes.empty()) sizes.assign(names.size(), "4");
+  if (types.empty()) types.assign(names.size(), "F");
   if (counts.empty()) counts.assign(names.size(), "1");
   if (names.size() != sizes.size() || names.size() != types.size() ||
       names.size() != counts.size()) {
@@ -97,15 +105,14 @@ bool ParseFields(Entries* entries, PcdHeader* header, std::string* error) {
                Quoted(sizes[i]);
       return false;
     }
-    const std::uint64_t count = ParseCount(counts[i]).value_or(0);
-    if (count == 0 ||
-        count > (kMaxRowSize - header->row_size) / SizeOf(*type)) {
+    const std::optional<std::uint64_t> count = ParseCount(counts[i]);
+    if (!count || *count > (kMaxRowSize - header->row_size) / SizeOf(*type)) {
       *error = place + "COUNT " + Quoted(counts[i]) +
-               " is not a number from 1 to what fits a point of 4 GiB";
+               " is not a number from 0 to what fits a point of 4 GiB";
       return false;
     }
-    header->fields.push_back({names[i], *type, count, header->row_size});
-    header->row_size += count * SizeOf(*type);
+    header->fields.push_back({names[i], *type, *count, header->row_size});
+    header->row_size += *count * SizeOf(*type);
   }
   return true;
 }
@@ -128,31 +135,32 @@ std::optional<std::uint64_t> FindCount(const Entries& entries,
   return count;
 }
 
-// The number of points from WIDTH and HEIGHT, from POINTS, or from all three.
+// WIDTH, HEIGHT and POINTS. A WIDTH or HEIGHT of 0 is one that is missing, and
+// a missing HEIGHT is 1; of WIDTH and POINTS, one may be missing.
 std::optional<std::uint64_t> ParseNumPoints(const Entries& entries,
                                             std::string* error) {
   error->clear();
-  const auto width = FindCount(entries, "WIDTH", error);
-  const auto height = FindCount(entries, "HEIGHT", error);
+  const std::uint64_t width = FindCount(entries, "WIDTH", error).value_or(0);
+  std::uint64_t height = FindCount(entries, "HEIGHT", error).value_or(0);
   const auto points = FindCount(entries, "POINTS", error);
   if (!error->empty()) return std::nullopt;
-  if (!width || !height) {
-    if (!points) *error = "POINTS: is missing, and so is WIDTH or HEIGHT";
+  if (width == 0) {
+    if (!points) *error = "POINTS: is missing, and so is WIDTH";
     return points;
   }
+  if (height == 0) height = 1;
 
-  const std::string product = "WIDTH x HEIGHT = " + std::to_string(*width) +
-                              " x " + std::to_string(*height);
-  if (*height != 0 &&
-      *width > std::numeric_limits<std::uint64_t>::max() / *height) {
+  const std::string product = "WIDTH x HEIGHT = " + std::to_string(width) +
+                              " x " + std::to_string(height);
+  if (width > std::numeric_limits<std::uint64_t>::max() / height) {
     *error = product + ": is too large";
     return std::nullopt;
   }
-  if (points && *points != *width * *height) {
+  if (points && *points != width * height) {
     *error = "POINTS: " + std::to_string(*points) + " is not " + product;
     return std::nullopt;
   }
-  return *width * *height;
+  return width * height;
 }
 
 }  // namespace
@@ -173,7 +181,8 @@ std::optional<PcdHeader> TakePcdHeader(std::string_view* bytes,
     return false;
   };
   PcdHeader header;
-  if (!is_one_of("VERSION", {"0.6", ".6", "0.7", ".7"}) ||
+  if ((entries->contains("VERSION") &&
+       !is_one_of("VERSION", {"0.5", ".5", "0.6", ".6", "0.7", ".7"})) ||
       !is_one_of("DATA", {"ascii", "binary", "binary_compressed"}) ||
       !ParseFields(&*entries, &header, error)) {
     return std::nullopt;

@@ -80,13 +80,16 @@ bool ParseHeaderLine(std::string_view line, PlyHeader* header) {
 
 std::optional<PlyHeader> TakePlyHeader(std::string_view* bytes,
                                        std::string* error) {
-  if (TakeLine(bytes) != "ply") {
-    *error = "line 1: is not 'ply'";
+  HeaderLines lines(bytes);
+  const std::string_view first = lines.Take();
+  std::string_view magic = first;
+  if (TakeWord(&magic) != "ply" || !TakeWord(&magic).empty()) {
+    *error = "line 1: is " + Quoted(first) + ", must be 'ply'";
     return std::nullopt;
   }
   PlyHeader header;
   for (int line_number = 2; !bytes->empty(); ++line_number) {
-    const std::string_view line = TakeLine(bytes);
+    const std::string_view line = lines.Take();
     std::string_view words = line;
     if (TakeWord(&words) == "end_header") {
       if (!header.format.empty()) return header;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A KITTI .bin, and the same one written again.
+// A .bin of any layout, and of KITTI's the same one written again.
 
 #include "features/io/kitti_bin.h"
 
@@ -9,12 +9,15 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   std::string error;
-  const auto cloud = quatro::ParseKittiBin(quatro::AsText(data, size), &error);
+  quatro::CheckCloud(
+      quatro::ParseKittiBin(quatro::AsText(data, size), 0, &error), error);
+  const auto cloud =
+      quatro::ParseKittiBin(quatro::AsText(data, size), 4, &error);
   quatro::CheckCloud(cloud, error);
   if (!cloud) return 0;
   const auto bytes = quatro::FormatKittiBin(*cloud, &error);
   CHECK(bytes) << error;
-  const auto again = quatro::ParseKittiBin(*bytes, &error);
+  const auto again = quatro::ParseKittiBin(*bytes, 4, &error);
   CHECK(again) << error;
   CHECK_EQ(again->num_dropped, 0);
   CHECK(again->points == cloud->points);

@@ -63,6 +63,14 @@ inline PairResult ResultApart(const std::string& method,
   return result;
 }
 
+// Whose true pose nobody knows.
+inline PairResult ResultWithoutTruth(const std::string& method,
+                                     const std::string& pair) {
+  PairResult result = ResultApart(method, pair, "registered");
+  result.is_truth_known = false;
+  return result;
+}
+
 }  // namespace quatro
 
 #endif  // QUATRO_TESTS_SUPPORT_PAIR_RESULTS_H_

@@ -14,7 +14,8 @@ export function pairRows(data) {
     row.hasTruth = row.distance_m !== null;
     row.succeeded = !row.hasTruth || !limit ? null
         : row.t_m !== null && row.t_m <= limit.translation_m && row.r_deg <= limit.rotation_deg;
-    row.isWrong = row.status === 'registered' && (row.succeeded === false || !row.hasTruth);
+    const isApart = !row.hasTruth && row.is_truth_known;
+    row.isWrong = row.status === 'registered' && (row.succeeded === false || isApart);
     return row;
   });
 }

@@ -16,6 +16,7 @@
 #include "experiments/datasets/kitti_poses.h"
 #include "experiments/datasets/kitti_raw.h"
 #include "experiments/datasets/oxts.h"
+#include "experiments/datasets/sequence.h"
 #include "experiments/metrics/kitti_metrics.h"
 #include "experiments/simulator/kitti_layout.h"
 #include "features/io/cloud_io.h"
@@ -429,6 +430,79 @@ TEST(PosesOfOxtsTest, ArcsOfLatitudeAndLongitude) {
                 .norm(),
             1e-3);
   EXPECT_TRUE(PosesOfOxts({}).empty());
+}
+
+TEST(PosesOfOxtsTest, CrossTheDateLineByTheShorterWay) {
+  OxtsReading before, after;
+  before.longitude = 179.9999;
+  after.longitude = -179.9999;
+  const double step = 6378137.0 * 0.0002 * kDegree;
+  const Eigen::Vector3d east =
+      PosesOfOxts({{0, before}, {1, after}}).at(1).translation;
+  EXPECT_LT((east - Eigen::Vector3d(step, 0.0, 0.0)).norm(), 1e-4);
+  const Eigen::Vector3d west =
+      PosesOfOxts({{0, after}, {1, before}}).at(1).translation;
+  EXPECT_LT((west + Eigen::Vector3d(step, 0.0, 0.0)).norm(), 1e-4);
+}
+
+TEST_F(KittiTest, TextMayHaveAnyLineEndsAndBlankLinesAtItsEnd) {
+  for (const std::string end : {"\n", "\r\n", "\r", " \n"}) {
+    const std::string line = "1 0 0 0 0 1 0 0 0 0 1 -1e-400";
+    const std::string path =
+        Write("p.txt", "\xef\xbb\xbf" + line + end + line + end + end);
+    std::string error;
+    const auto poses = ReadKittiPoses(path, &error);
+    ASSERT_TRUE(poses) << error;
+    EXPECT_EQ(poses->size(), 2u);
+    EXPECT_EQ((*poses)[1].translation.norm(), 0.0);
+    const auto tr = ReadKittiCalibration(
+        Write("c.txt", "\xef\xbb\xbfTr: 1 0 0 0 0 1 0 0 0 0 1 5" + end + end),
+        &error);
+    ASSERT_TRUE(tr) << error;
+    EXPECT_EQ(tr->translation.z(), 5.0);
+    std::string reading =
+        "\xef\xbb\xbf"
+        "49 8 100 0 0 1";
+    for (int i = 6; i < 30; ++i) reading += " 0";
+    Put("oxts/data/0000000003.txt", reading + end + end);
+    Put("oxts/data/._0000000003.txt", "macOS");
+    const auto readings = ReadOxts(PathOf("oxts"), &error);
+    ASSERT_TRUE(readings) << error;
+    EXPECT_EQ(readings->at(3).attitude.yaw, 1.0);
+  }
+}
+
+TEST_F(KittiTest, ABlankLineAmongPosesIsRefused) {
+  std::string error;
+  EXPECT_FALSE(ReadKittiPoses(
+      Write("p.txt", std::string(kIdentity) + "\n" + kIdentity), &error));
+  ExpectLine(error, "p.txt: line 2", "is blank, must have 12 numbers");
+}
+
+TEST_F(KittiTest, ADriveStartsAtItsFirstScan) {
+  for (const char* name : {"004391.bin", "004392.bin", "004393.bin"}) {
+    PutScan(std::string("drive/velodyne/") + name);
+  }
+  Put("drive/velodyne/._004391.bin", "macOS");
+  Put("drive/velodyne/.hidden.ply", "x");
+  std::string error;
+  const auto scans = ListScans(PathOf("drive"), &error);
+  ASSERT_TRUE(scans) << error;
+  EXPECT_EQ(scans->size(), 3u);
+  SequenceOptions options;
+  EXPECT_THAT(*FramesOf(*scans, options, &error),
+              ElementsAre(4391, 4392, 4393));
+  options.interval = 2;
+  EXPECT_THAT(*FramesOf(*scans, options, &error), ElementsAre(4391, 4393));
+  options.first_frame = 4390;  // As it is asked for.
+  EXPECT_THAT(*FramesOf(*scans, options, &error), ElementsAre(4390, 4392));
+
+  // Poses from frame 0 on do not make lost scans of what comes before.
+  SequenceData data;
+  data.scans = {{0, PathOf("none.bin")}, {4391, scans->at(4391)}};
+  EXPECT_EQ(FirstScan(data), 4391);
+  data.scans.erase(4391);
+  EXPECT_EQ(FirstScan(data), 0);
 }
 
 TEST_F(KittiRawTest, BadInputIsNamed) {

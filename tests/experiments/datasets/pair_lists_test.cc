@@ -91,12 +91,40 @@ TEST_F(PairListTest, CsvWithTruthInsAndNegatives) {
   EXPECT_THAT(pairs->notes,
               Contains("2 of 3 scans are missing, the first is " +
                        PathOf("scans/b.bin")));
-  // Only the two required columns.
+  for (const PairTask& task : pairs->tasks) EXPECT_TRUE(task.is_truth_known);
+}
+
+TEST_F(PairListTest, CsvWithoutPosesHasNoTruth) {
+  std::string error;
   Put("other.csv", "source,target\na.bin,b.bin\n");
-  const auto negative = ReadPairsCsv(PathOf("other.csv"), &error);
-  ASSERT_TRUE(negative) << error;
-  EXPECT_EQ(negative->tasks[0].name, "other/000001");
-  EXPECT_FALSE(negative->tasks[0].true_target_from_source);
+  const auto unknown = ReadPairsCsv(PathOf("other.csv"), &error);
+  ASSERT_TRUE(unknown) << error;
+  EXPECT_EQ(unknown->tasks[0].name, "other/000001");
+  EXPECT_FALSE(unknown->tasks[0].true_target_from_source);
+  EXPECT_FALSE(unknown->tasks[0].is_truth_known);
+  Put("apart.csv", "apart,source,target\nother_seed,a,b\n,a,b\n");
+  const auto apart = ReadPairsCsv(PathOf("apart.csv"), &error);
+  ASSERT_TRUE(apart) << error;
+  EXPECT_TRUE(apart->tasks[0].is_truth_known);
+  EXPECT_FALSE(apart->tasks[1].is_truth_known);
+}
+
+TEST_F(PairListTest, CsvMayBeOfAnyProgram) {
+  Put("scans/a.bin", "x");
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string error;
+    Put("pairs.csv",
+        "\xef\xbb\xbfsource, target " + end + "scans\\a.bin, b.bin" + end +
+            " " + end);
+    const auto pairs = ReadPairsCsv(PathOf("pairs.csv"), &error);
+    ASSERT_TRUE(pairs) << error;
+    ASSERT_EQ(pairs->tasks.size(), 1u);
+    EXPECT_EQ(pairs->tasks[0].source, PathOf("scans/a.bin"));
+    EXPECT_EQ(pairs->tasks[0].target, PathOf("b.bin"));
+  }
+  ExpectBadCsv("source;target\na;b\n",
+               "line 1 has semicolons, must have commas between columns");
+  ExpectBadCsv("from,to\na,b\n", "has no column source, but 'from,to'");
 }
 
 TEST_F(PairListTest, BadCsvIsNamed) {
@@ -156,6 +184,7 @@ TEST_F(PairListTest, WhatTheSimulatorWritesIsRead) {
   const auto negative = ReadPairsCsv(PathOf("set/pairs_negative.csv"), &error);
   ASSERT_TRUE(negative) << error;
   EXPECT_FALSE(negative->tasks.at(0).true_target_from_source);
+  EXPECT_TRUE(negative->tasks.at(0).is_truth_known);
   EXPECT_TRUE(negative->tasks.at(0).ins);
 }
 

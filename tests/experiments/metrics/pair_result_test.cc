@@ -224,6 +224,19 @@ std::string ErrorWith(const std::string& column, const std::string& text) {
   return error;
 }
 
+TEST(PairResultCsv, AnUnknownTruthComesBack) {
+  PairResult result = Example(3);
+  result.is_truth_known = false;
+  result.distance.reset();
+  std::string error;
+  const auto read = ParseResultCsv(FormatResultCsv(result), &error);
+  ASSERT_TRUE(read) << error;
+  EXPECT_FALSE(read->is_truth_known);
+  EXPECT_FALSE(read->distance);
+  result.is_truth_known = true;
+  EXPECT_TRUE(ParseResultCsv(FormatResultCsv(result), &error)->is_truth_known);
+}
+
 TEST(PairResultCsv, ABadLineNamesItsColumn) {
   EXPECT_EQ(ErrorWith("pair", ""), "column pair is empty");
   EXPECT_EQ(ErrorWith("method", ""), "column method is empty");

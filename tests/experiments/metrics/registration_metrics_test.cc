@@ -51,6 +51,18 @@ TEST(RegistrationMetrics, CountEveryKindOfPair) {
   EXPECT_THAT(metrics.num_successes, ElementsAre(3, 2, 1));
 }
 
+TEST(RegistrationMetrics, WithoutTruthNothingIsRightOrWrong) {
+  auto results = Mixed();
+  const RegistrationMetrics before = Metrics(results);
+  results.push_back(ResultWithoutTruth("m", "j"));
+  const RegistrationMetrics metrics = Metrics(results);
+  EXPECT_EQ(metrics.num_unknown, 1);
+  EXPECT_EQ(metrics.num_apart, before.num_apart);
+  EXPECT_EQ(metrics.num_registered, before.num_registered + 1);
+  EXPECT_EQ(metrics.num_wrong_registered, before.num_wrong_registered);
+  EXPECT_EQ(metrics.SuccessRate(0), before.SuccessRate(0));
+}
+
 TEST(RegistrationMetrics, RatesAreOfPairsWithTruthThatCouldBeRead) {
   const RegistrationMetrics metrics = Metrics(Mixed());
   EXPECT_DOUBLE_EQ(*metrics.SuccessRate(0), 3.0 / 6.0);

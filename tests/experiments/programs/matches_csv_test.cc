@@ -60,6 +60,20 @@ TEST_F(MatchesCsvTest, ReadsWhatPeopleWrite) {
                    "1,2,3.5,4,5,6\r\n-7,8,9000,1,2,3\r\n");
 }
 
+TEST_F(MatchesCsvTest, ReadsWhatProgramsWrite) {
+  ExpectTwoMatches("\xef\xbb\xbf" + std::string(kNames) +
+                   "1,2,3.5,4,5,6\r-7,8,9e3,1,2,3\r\r");
+  const auto matches = Parse("-1.2e-400,1e-400,3,4,5,6\n");
+  ASSERT_TRUE(matches);
+  EXPECT_EQ(matches->source.col(0), Eigen::Vector3d(0.0, 0.0, 3.0));
+  EXPECT_TRUE(std::signbit(matches->source(0, 0)));
+  EXPECT_EQ(ErrorOf("1e400,2,3,4,5,6\n"),
+            "line 1, column sx: '1e400' is not a number");
+  EXPECT_EQ(ErrorOf("1,0;2,0;3,0;4,0;5,0;6,0\n"),
+            "line 1 has semicolons, must have commas between columns and "
+            "points in numbers");
+}
+
 TEST_F(MatchesCsvTest, NamesAloneAreNoMatches) {
   const auto matches = Parse(kNames);
   ASSERT_TRUE(matches.has_value());

@@ -187,7 +187,7 @@ TEST_F(RegisterProgramTest, EmptyPly) { ExpectRefused("a.ply", "", ""); }
 TEST_F(RegisterProgramTest, EmptyPcd) { ExpectRefused("a.pcd", "", ""); }
 
 TEST_F(RegisterProgramTest, TruncatedBin) {
-  ExpectRefused("a.bin", std::string(50, 'a'), "is not a multiple of 16");
+  ExpectRefused("a.bin", std::string(50, '\1'), "is not a multiple of 16");
 }
 
 TEST_F(RegisterProgramTest, TruncatedPly) {

@@ -93,6 +93,18 @@ class PairScriptsTest(unittest.TestCase):
         self.assertGreater(float(a["peak_mb"]), 1.0)
         self.assertEqual(a["stages_ms"], "voxels=2.0;matching=3.0;clique=1.0")
 
+    def test_without_poses_nothing_is_wrong(self):
+        self.pairs = self.write("pairs.csv", "\ufefftarget,source\nt.bin,a.bin\n")
+        run = self.run_pairs()
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.folder / "out.csv", newline="", encoding="utf-8") as file:
+            row, = csv.DictReader(file)
+        self.assertEqual((row["status"], row["wrong_but_registered"]), ("registered", ""))
+        self.assertRegex(run.stdout, r"total +1 +1 +- +- +- +- ")
+        self.pairs = self.write("pairs.csv", "source,target,apart\na.bin,t.bin,far_apart\n")
+        (self.folder / "out.csv").unlink()
+        self.assertRegex(self.run_pairs().stdout, r"total +1 +1 +- +- +- +1 ")
+
     def test_a_run_that_was_stopped_goes_on(self):
         self.write("stop", "")
         run = self.run_pairs()

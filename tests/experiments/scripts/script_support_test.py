@@ -39,11 +39,18 @@ class ScriptSupportTest(unittest.TestCase):
         self.assertEqual(names, ["a", "b"])
         self.assertEqual(rows, [(2, {"a": "1", "b": "2"}), (4, {"a": "3", "b": ""})])
 
+    def test_line_ends_and_blanks_do_not_matter(self):
+        for end in (b"\n", b"\r\n", b"\r"):
+            data = end.join((b"\xef\xbb\xbfa, b ", b" 1,\"2, 3\"", b"  ", b""))
+            rows, names = support.read_rows(self.write(data), ("b",))
+            self.assertEqual((names, rows), (["a", "b"], [(2, {"a": "1", "b": "2, 3"})]))
+
     def test_tables_that_are_none_are_told(self):
         for data, needed, problem in ((b"", ("a",), "there is no column a"),
                                       (b"a,b\n1\n", (), "line 2 must have 2 columns"),
                                       (b"a,b\n1,2\n1,2,3\n", (), "line 3 must have 2 columns"),
-                                      (b"\xff", (), "'utf-8' codec")):
+                                      (b"a;b\n1;2\n", (), "line 1 has semicolons"),
+                                      (b"\xff\xfea\0", (), "is not UTF-8 text; save it as")):
             self.assertIn("table.csv: " + problem,
                           self.refused(support.read_rows, self.write(data), needed))
         self.assertEqual(self.refused(support.read_rows, "/none.csv"),

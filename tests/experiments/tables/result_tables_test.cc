@@ -172,6 +172,16 @@ TEST(SummaryTable, HasARowAMethodAndSetAndOneOfAll) {
   EXPECT_EQ(all.at("successes / t_avg m low"), "0.400");
 }
 
+TEST(SummaryTable, WithoutTruthThereIsNoWrong) {
+  const Table table = MakeSummaryTable({ResultWithoutTruth("a", "1")}, {});
+  const auto row = RowOf(table, "a", "00");
+  EXPECT_EQ(row.at("apart"), "0");
+  EXPECT_EQ(row.at("no truth"), "1");
+  EXPECT_EQ(row.at("registered"), "1");
+  EXPECT_EQ(row.at("wrong registered"), "");
+  EXPECT_EQ(row.at("success % / 2 m 5 deg"), "");
+}
+
 TEST(SignificanceTable, IsThatOfTheTests) {
   std::vector<PairResult> results;
   for (int i = 0; i < 12; ++i) {
@@ -394,10 +404,10 @@ TEST(RunTables, AreTheFilesOfARun) {
   EXPECT_EQ(RowOf(tables[0].table, "b", "measured").at("00"), "0.00");
   EXPECT_EQ(RowOf(tables[1].table, "a", "measured").at("4-6 m / t_avg m"),
             "0.300");
-  // For printing, the paper's averages; for CSV, all.
-  EXPECT_EQ(tables[2].table.columns.size(), 2u + 6u + 3u + 4u);
+  // For print, the paper's averages; for CSV, all.
+  EXPECT_EQ(tables[2].table.columns.size(), 2u + 7u + 3u + 4u);
   EXPECT_EQ(tables[2].with_intervals.columns.size(),
-            2u + 6u + 3u * 3u + 2u * (4u * 3u + 2u));
+            2u + 7u + 3u * 3u + 2u * (4u * 3u + 2u));
   EXPECT_EQ(RowOf(tables[1].table, "FGR", "quoted").at("4-6 m / t_avg m"),
             "0.103");
 }

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <clocale>
 #include <cmath>
 #include <csignal>
@@ -189,7 +190,14 @@ class CloudIoTest : public ::testing::Test {
   std::string directory_;
 };
 
-// The two points of most test files below.
+// `text` with other line ends.
+std::string WithEnds(const std::string& end, const std::string& text) {
+  std::string changed;
+  for (const char c : text) changed += c == '\n' ? end : std::string(1, c);
+  return changed;
+}
+
+// The two points of most samples below.
 void ExpectTwoPoints(const PointCloud& cloud) {
   Points expected(3, 2);
   expected << 1, 4, 2, 5, 3, 6;
@@ -264,7 +272,8 @@ TEST_F(CloudIoTest, BinIsFloatsWithIntensity) {
 TEST_F(CloudIoTest, BinRefusesHalfAPoint) {
   EXPECT_EQ(ErrorOf("scan.bin", std::string(1993, '\0')),
             "size 1993 bytes is not a multiple of 16 (x y z intensity as "
-            "float32)");
+            "float32); is it truncated, or of another layout "
+            "(--point_floats)?");
 }
 
 TEST_F(CloudIoTest, BinDropsAndCountsWhatIsNotFinite) {
@@ -506,7 +515,8 @@ TEST_F(CloudIoTest, PlyRefusesNoPoints) {
 }
 
 TEST_F(CloudIoTest, PlyRefusesBadHeaders) {
-  EXPECT_EQ(ErrorOf("a.ply", "plyable\n"), "line 1: is not 'ply'");
+  EXPECT_EQ(ErrorOf("a.ply", "plyable\n"),
+            "line 1: is 'plyable', must be 'ply'");
   EXPECT_EQ(ErrorOf("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n"),
             "header: has no end_header; is the file truncated?");
   EXPECT_EQ(ErrorOf("a.ply", "ply\nend_header\n"),
@@ -664,10 +674,58 @@ TEST_F(CloudIoTest, PcdRefusesUnknownData) {
 }
 
 TEST_F(CloudIoTest, PcdRefusesUnknownVersions) {
-  EXPECT_EQ(ErrorOf("a.pcd", PcdWith("VERSION 0.7", "VERSION 0.5")),
-            "VERSION: '0.5' is unknown");
-  EXPECT_EQ(ErrorOf("a.pcd", PcdWith("VERSION 0.7\n", "")),
-            "VERSION: is missing");
+  EXPECT_EQ(ErrorOf("a.pcd", PcdWith("VERSION 0.7", "VERSION 0.8")),
+            "VERSION: '0.8' is unknown");
+}
+
+TEST_F(CloudIoTest, PcdOfOldVersionsIsRead) {
+  for (const std::string version : {"VERSION .5\n", "VERSION 0.5\n", ""}) {
+    ExpectTwoPoints(Read("a.pcd", PcdWith("VERSION 0.7\n", version)));
+  }
+  ExpectTwoPoints(Read("a.pcd", PcdWith("FIELDS", "COLUMNS")));
+  ExpectTwoPoints(Read("a.pcd", PcdWith("SIZE 4 4 4\nTYPE F F F\n", "")));
+}
+
+TEST_F(CloudIoTest, PcdTypesAndNamesMayBeInEitherCase) {
+  ExpectTwoPoints(Read("a.pcd", PcdWith("TYPE F F F", "TYPE f F f")));
+  ExpectTwoPoints(Read("a.pcd", PcdWith("FIELDS x y z", "FIELDS X Y Z")));
+  EXPECT_EQ(ErrorOf("a.pcd", PcdWith("FIELDS x y z", "FIELDS X X Y")),
+            "FIELDS: x: must be there exactly once and as a single number");
+  for (const std::string type : {"i", "u"}) {
+    ExpectTwoPoints(
+        Read("a.pcd", PcdWith("TYPE F F F", "TYPE " + type + " F F")));
+  }
+}
+
+TEST_F(CloudIoTest, PcdLowerCaseOfAnExactNameIsAnotherField) {
+  const PointCloud cloud =
+      Read("a.pcd",
+           "FIELDS X x y z Z Intensity\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\n"
+           "WIDTH 1\nHEIGHT 1\nDATA ascii\n9 1 2 3 9 0.5\n");
+  EXPECT_EQ(cloud.points.col(0), Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(cloud.intensity[0], 0.5f);
+}
+
+TEST_F(CloudIoTest, PcdFieldsOfCountZeroAreNotThere) {
+  const std::string header =
+      "VERSION 0.7\nFIELDS x _ y z\nSIZE 4 1 4 4\nTYPE F U F F\n"
+      "COUNT 1 0 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ";
+  ExpectTwoPoints(Read("a.pcd", header + "ascii\n1 2 3\n4 5 6\n"));
+  ExpectTwoPoints(
+      Read("a.pcd",
+           header + "binary\n" + Little({1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f})));
+  ExpectTwoPoints(
+      Read("a.pcd", header + "binary_compressed\n" + Compressed(kTwoByField)));
+}
+
+TEST_F(CloudIoTest, PcdWidthAndHeightOfZeroAreMissing) {
+  for (const std::string sizes :
+       {"WIDTH 0\nHEIGHT 0", "WIDTH 0\nHEIGHT 1", "WIDTH 2\nHEIGHT 0"}) {
+    ExpectTwoPoints(Read("a.pcd", PcdWith("WIDTH 2\nHEIGHT 1", sizes)));
+  }
+  ExpectTwoPoints(Read("a.pcd", PcdWith("HEIGHT 1\n", "")));
+  EXPECT_EQ(ErrorOf("a.pcd", PcdWith("WIDTH 2\nHEIGHT 1", "WIDTH 3")),
+            "POINTS: 2 is not WIDTH x HEIGHT = 3 x 1");
 }
 
 TEST_F(CloudIoTest, PcdRefusesBadHeaders) {
@@ -692,8 +750,7 @@ TEST_F(CloudIoTest, PcdRefusesBadTypesAndSizes) {
 }
 
 TEST_F(CloudIoTest, PcdRefusesBadCounts) {
-  for (const std::string count :
-       {"0", "-1", "4294967295", "18446744073709551615"}) {
+  for (const std::string count : {"-1", "4294967295", "18446744073709551615"}) {
     EXPECT_THAT(ErrorOf("a.pcd", PcdWith("COUNT 1 1 1", "COUNT 1 1 " + count)),
                 StartsWith("FIELDS 'z': COUNT '" + count + "' is not"));
   }
@@ -707,6 +764,10 @@ TEST_F(CloudIoTest, PcdRefusesMissingAndAmbiguousCoordinates) {
   EXPECT_EQ(ErrorOf("a.pcd", PcdWith("FIELDS x y z", "FIELDS x y y")),
             "FIELDS: y" + reason);
   EXPECT_EQ(ErrorOf("a.pcd", PcdWith("COUNT 1 1 1", "COUNT 2 1 1")),
+            "FIELDS: x" + reason);
+  EXPECT_EQ(ErrorOf("a.pcd", PcdWith("COUNT 1 1 1", "COUNT 1 1 0")),
+            "FIELDS: z" + reason);
+  EXPECT_EQ(ErrorOf("a.pcd", PcdWith("COUNT 1 1 1", "COUNT 0 0 0")),
             "FIELDS: x" + reason);
 }
 
@@ -811,7 +872,7 @@ TEST_F(CloudIoTest, BinRoundTripIsExactForFloats) {
   const PointCloud cloud = RandomCloud(1000, true);
   std::string error;
   ASSERT_TRUE(WriteCloud(cloud, PathOf("a.BIN"), &error)) << error;
-  const auto read = ReadCloud(PathOf("a.BIN"), &error);
+  const auto read = ReadCloud(PathOf("a.BIN"), {.point_floats = 4}, &error);
   ASSERT_TRUE(read.has_value()) << error;
   EXPECT_EQ(read->points, cloud.points.cast<float>().cast<double>());
   EXPECT_EQ(read->intensity, cloud.intensity);
@@ -819,6 +880,32 @@ TEST_F(CloudIoTest, BinRoundTripIsExactForFloats) {
   ASSERT_TRUE(WriteCloud(*read, PathOf("b.bin"), &error)) << error;
   EXPECT_EQ(ReadWholeFile(PathOf("a.BIN"), &error),
             ReadWholeFile(PathOf("b.bin"), &error));
+}
+
+TEST_F(CloudIoTest, BinPointsMayHaveAnyNumberOfFloats) {
+  const std::string bytes = Little({1.0f,
+                                    2.0f,
+                                    3.0f,
+                                    0.5f,
+                                    7.0f,
+                                    8.0f,  //
+                                    4.0f,
+                                    5.0f,
+                                    6.0f,
+                                    0.6f,
+                                    7.0f,
+                                    8.0f});
+  std::string error;
+  const std::string path = Write("a.bin", bytes);
+  const auto cloud = ReadCloud(path, {.point_floats = 6}, &error);
+  ASSERT_TRUE(cloud) << error;
+  ExpectTwoPoints(*cloud);
+  EXPECT_EQ(cloud->intensity, Eigen::Vector2f(0.5f, 0.6f));
+  EXPECT_EQ(ReadCloud(path, {.point_floats = 3}, &error)->intensity.size(), 0);
+  for (const int bad : {-1, 1, 2, 65}) {
+    EXPECT_FALSE(ReadCloud(path, {.point_floats = bad}, &error));
+    EXPECT_THAT(error, StartsWith("point_floats = " + std::to_string(bad)));
+  }
 }
 
 TEST_F(CloudIoTest, BinWithoutIntensityHasZeros) {
@@ -933,7 +1020,10 @@ TEST(CloudParserTest, SurvivesDamagedFiles) {
       "property float y\nproperty float z\n";
   using Parser = std::optional<PointCloud> (*)(std::string_view, std::string*);
   const std::vector<std::pair<Parser, std::string>> samples = {
-      {ParseKittiBin, Little({1.0f, 2.0f, 3.0f, 0.5f, 4.0f, 5.0f, 6.0f, 0.5f})},
+      {[](std::string_view bytes, std::string* error) {
+         return ParseKittiBin(bytes, 0, error);
+       },
+       Little({1.0f, 2.0f, 3.0f, 0.5f, 4.0f, 5.0f, 6.0f, 0.5f})},
       {ParsePly, AsciiPly("2", "1 2 3\n4 5 6\n")},
       {ParsePly,
        Ply("ascii", list_elements, "2 1 2\n1 2 -1 -2 2 3\n4 0 5 6\n")},
@@ -1005,6 +1095,75 @@ TEST(CloudParserTest, SurvivesDamagedFiles) {
   }
   EXPECT_GT(num_clouds, 100);  // Damage must go beyond the headers.
   EXPECT_GT(num_errors, 100);
+}
+
+TEST_F(CloudIoTest, TextMayHaveAnyLineEndsBlanksAndAByteOrderMark) {
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 2\n" +
+                          std::string(kXyz) + "end_header\n1 2 3\n4 5 6\n\n";
+  const std::string pcd = PcdXyz("2", "ascii") + "1 2 3\n4 5 6\n\n";
+  for (const std::string end : {"\n", "\r\n", "\r", " \n", "\t\r"}) {
+    for (const std::string start : {"", "\xef\xbb\xbf"}) {
+      ExpectTwoPoints(Read("a.ply", start + WithEnds(end, ply)));
+      ExpectTwoPoints(Read("a.pcd", start + WithEnds(end, pcd)));
+    }
+  }
+}
+
+// Data that begin with a line feed, or end in a carriage return.
+TEST_F(CloudIoTest, BinaryDataBeginRightAfterTheHeadersLastLineEnd) {
+  const float first = std::bit_cast<float>(0x3f80000au);  // Its first byte: LF.
+  const float last = std::bit_cast<float>(0x0d80003fu);   // Its last byte: CR.
+  const std::string data = Little({first, 2.0f, last});
+  const std::string ply =
+      "ply\nformat binary_little_endian 1.0\n"
+      "element vertex 1\n" +
+      std::string(kXyz) + "end_header\n";
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    for (const auto& [name, header] :
+         {std::pair("a.ply", ply), std::pair("a.pcd", PcdXyz("1", "binary"))}) {
+      const PointCloud cloud = Read(name, WithEnds(end, header) + data);
+      ASSERT_EQ(cloud.points.cols(), 1);
+      EXPECT_EQ(cloud.points.col(0), Eigen::Vector3d(first, 2.0, last));
+    }
+  }
+}
+
+TEST_F(CloudIoTest, NumbersBelowTheRangeOfDoubleAreZero) {
+  const PointCloud cloud =
+      Read("a.ply", AsciiPly("1", "-1.2e-400 1e-99999999999 3\n"));
+  EXPECT_EQ(cloud.points.col(0), Eigen::Vector3d(0.0, 0.0, 3.0));
+  EXPECT_TRUE(std::signbit(cloud.points(0, 0)));
+  EXPECT_EQ(ErrorOf("a.ply", AsciiPly("1", "1 2 1e400\n")),
+            "element 'vertex', row 0: '1e400' is not a number");
+}
+
+TEST_F(CloudIoTest, SaysWhatAForeignFileIs) {
+  const auto error = [&](const std::string& start) {
+    const std::string bytes = start + std::string(1024 - start.size(), 'a');
+    const std::string reason = ErrorOf("a.ply", bytes);
+    EXPECT_EQ(ErrorOf("a.bin", bytes), reason);
+    EXPECT_EQ(ErrorOf("a.pcd", bytes), reason);
+    return reason;
+  };
+  EXPECT_EQ(error("version https://git-lfs.github.com/spec/v1\n"),
+            "is a pointer of Git LFS, not the data; run git lfs pull");
+  EXPECT_EQ(error("<!DOCTYPE html>404"),
+            "is a web page; the download failed, repeat it");
+  EXPECT_EQ(error("\x1f\x8b\x08"), "is gzip-compressed; run gunzip");
+  EXPECT_EQ(error(std::string("\xff\xfep\0l\0y\0\r\0\n\0", 12)),
+            "is UTF-16 text; save it as UTF-8");
+  EXPECT_THAT(ErrorOf("a.bin", AsciiPly("1", "1 2 3\n")),
+              HasSubstr("is a PLY file; name it .ply"));
+  EXPECT_THAT(ErrorOf("a.pcd", AsciiPly("1", "1 2 3\n")),
+              HasSubstr("is a PLY file; name it .ply"));
+  EXPECT_THAT(ErrorOf("a.ply", PcdXyz("1", "ascii")),
+              HasSubstr("is a PCD file; name it .pcd"));
+  for (const std::string line : {"1", "1.0 2.0 3.0 0.5\n"}) {
+    std::string text;
+    for (int i = 0; i < 1600; ++i) text += line;
+    EXPECT_EQ(ErrorOf("a.bin", text),
+              "is text, not the binary numbers of a .bin");
+  }
 }
 
 // Real files

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "features/io/bin_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "features/base/random.h"
+
+namespace quatro {
+namespace {
+
+constexpr std::size_t kMinNumPoints = 64;
+constexpr std::size_t kNumSamples = 1 << 13;
+constexpr double kMaxCoordinate = 8e6;       // [m]
+constexpr double kMaxShareSenseless = 0.01;  // Stray points.
+
+// A structure of c values lowers G(1) by this at least.
+constexpr double kMaxShareOfUnstructured = 0.98;
+
+// A divisor of c is taken unless c lowers its G to less than this.
+constexpr double kMaxShareOfDivisor = 0.8;
+
+// A file as values of one type.
+struct Values {
+  std::string_view bytes;
+  ScalarType type;
+
+  std::size_t Size() const { return bytes.size() / SizeOf(type); }
+
+  double At(std::size_t i) const {
+    return DecodeScalar(
+        bytes.data() + i * SizeOf(type), type, std::endian::little);
+  }
+
+  // A point at the origin, perhaps.
+  bool IsAmongThreeZeros(std::size_t i) const {
+    int num_zeros = 0;
+    const std::size_t end = std::min(Size(), i + 3);
+    for (std::size_t k = i < 2 ? 0 : i - 2; k < end; ++k) {
+      num_zeros = At(k) == 0.0 ? num_zeros + 1 : 0;
+      if (num_zeros == 3) return true;
+    }
+    return false;
+  }
+};
+
+// asinh of a value, and its index.
+struct Sample {
+  double g;
+  std::size_t index;
+};
+
+// Sorted by g. Indices at random: even steps would prefer some columns.
+std::vector<Sample> DrawSamples(const Values& values) {
+  Random random(1);
+  std::vector<Sample> samples;
+  const std::size_t num_values = values.Size();
+  const std::size_t num_draws = std::min(num_values, kNumSamples);
+  for (std::size_t i = 0; i < num_draws; ++i) {
+    const std::size_t index =
+        num_draws == num_values ? i : random.Below(num_values);
+    const double value = values.At(index);
+    if (!std::isfinite(value)) continue;
+    if (value == 0.0 && values.IsAmongThreeZeros(index)) continue;
+    samples.push_back({std::asinh(value), index});
+  }
+  std::ranges::sort(samples, {}, &Sample::g);
+  return samples;
+}
+
+// Equation (1) of `c` columns.
+double MeanDifference(std::span<const Sample> samples, std::size_t c) {
+  struct Column {
+    double count = 0.0, sum = 0.0, differences = 0.0;
+  };
+  std::vector<Column> columns(c);
+  for (const auto& [g, index] : samples) {
+    Column& column = columns[index % c];
+    column.differences += column.count * g - column.sum;
+    column.count += 1.0;
+    column.sum += g;
+  }
+  double total = 0.0;
+  for (const Column& column : columns) {
+    if (column.count > 1.0) {
+      total += 2.0 * column.differences / (column.count - 1.0);
+    }
+  }
+  return total / static_cast<double>(samples.size());
+}
+
+// c, or 0 if there are no columns.
+int FindNumValues(std::span<const Sample> samples) {
+  constexpr std::size_t kMax = 8;
+  if (samples.size() < kMinNumPoints) return 0;
+  std::array<double, kMax + 1> g = {};
+  for (std::size_t c = 1; c <= kMax; ++c) g[c] = MeanDifference(samples, c);
+  auto best =
+      static_cast<std::size_t>(std::min_element(&g[3], g.end()) - g.begin());
+  for (const std::size_t divisor : {std::size_t{3}, std::size_t{4}}) {
+    if (best == 2 * divisor && g[best] >= kMaxShareOfDivisor * g[divisor]) {
+      best = divisor;
+    }
+  }
+  return g[best] < kMaxShareOfUnstructured * g[1] ? static_cast<int>(best) : 0;
+}
+
+// Share of finite values that are no coordinates [m].
+double ShareOfSenseless(std::span<const Sample> samples) {
+  const double limit = std::asinh(kMaxCoordinate);
+  const auto num_senseless = std::ranges::count_if(
+      samples,
+      [&](const Sample& sample) { return std::abs(sample.g) > limit; });
+  return static_cast<double>(num_senseless) /
+         std::max(1.0, static_cast<double>(samples.size()));
+}
+
+// Whether the lower halves of nonzero doubles end in 29 zeros: they were
+// float32 or whole numbers once.
+bool HasEmptyHalves(std::string_view bytes) {
+  Random random(2);
+  const std::size_t num_doubles = bytes.size() / sizeof(double);
+  int num_nonzero = 0, num_empty = 0;
+  for (std::size_t i = 0; i < kNumSamples && num_doubles > 0; ++i) {
+    const std::size_t index = random.Below(num_doubles);
+    const auto half_at = [&](std::size_t offset) {
+      return static_cast<std::uint32_t>(
+          DecodeScalar(bytes.data() + index * sizeof(double) + offset,
+                       ScalarType::kUint32,
+                       std::endian::little));
+    };
+    if (half_at(4) == 0) continue;
+    ++num_nonzero;
+    if ((half_at(0) & 0x1fffffffu) == 0) ++num_empty;
+  }
+  return num_nonzero > 0 && num_empty > 0.9 * num_nonzero;
+}
+
+bool IsDouble(std::string_view bytes, std::span<const Sample> as_float) {
+  if (bytes.size() % sizeof(double) != 0) return false;
+  if (ShareOfSenseless(as_float) <= kMaxShareSenseless &&
+      !HasEmptyHalves(bytes)) {
+    return false;
+  }
+  const auto as_double = DrawSamples({bytes, ScalarType::kFloat64});
+  return !as_double.empty() &&
+         ShareOfSenseless(as_double) <= kMaxShareSenseless;
+}
+
+std::string WrongCoordinates(double largest) {
+  char text[160];
+  std::snprintf(text,
+                sizeof(text),
+                "coordinates up to %.1e m. The file is probably not float32 x, "
+                "y, z, intensity; use --point_floats or convert it",
+                largest);
+  return text;
+}
+
+std::string NotWholePoints(std::size_t size, const BinLayout& layout) {
+  return "size " + std::to_string(size) + " bytes is not a multiple of " +
+         std::to_string(layout.PointSize()) + " (" +
+         (layout.num_values == 4
+              ? std::string("x y z intensity")
+              : std::to_string(layout.num_values) + " numbers a point") +
+         " as " +
+         (layout.type == ScalarType::kFloat64 ? "float64" : "float32") +
+         "); is it truncated, or of another layout (--point_floats)?";
+}
+
+// Nullopt with *error set if the values have no columns or no coordinates.
+std::optional<int> NumValuesOf(std::span<const Sample> samples,
+                               std::string* error) {
+  const int num_values = FindNumValues(samples);
+  std::vector<Sample> coordinates;
+  for (const Sample& sample : samples) {
+    if (num_values == 0 ||
+        sample.index % static_cast<std::size_t>(num_values) < 3) {
+      coordinates.push_back(sample);
+    }
+  }
+  if (ShareOfSenseless(coordinates) > kMaxShareSenseless) {
+    *error = WrongCoordinates(std::sinh(
+        std::max(std::abs(samples.front().g), std::abs(samples.back().g))));
+    return std::nullopt;
+  }
+  if (num_values == 0) {
+    *error =
+        "cannot tell how many numbers a point has; if x, y, z and intensity "
+        "as float32, use --point_floats=4";
+    return std::nullopt;
+  }
+  constexpr int kMaxKnown = 6;
+  if (num_values > kMaxKnown) {
+    *error = "a point seems to have " + std::to_string(num_values) +
+             " numbers, not x, y, z, intensity; if so, use --point_floats=" +
+             std::to_string(num_values);
+    return std::nullopt;
+  }
+  return num_values;
+}
+
+}  // namespace
+
+std::optional<BinLayout> FindBinLayout(std::string_view bytes,
+                                       int num_values,
+                                       std::string* error) {
+  BinLayout layout;
+  if (num_values > 0) layout.num_values = num_values;
+  const bool is_scan = bytes.size() >= kMinNumPoints * layout.PointSize();
+  if (is_scan && bytes.size() % sizeof(float) == 0) {
+    auto samples = DrawSamples({bytes, layout.type});
+    if (IsDouble(bytes, samples)) {
+      layout.type = ScalarType::kFloat64;
+      if (num_values == 0) samples = DrawSamples({bytes, layout.type});
+    }
+    // Without a sample there is not one finite point: others say so.
+    if (num_values == 0 && !samples.empty()) {
+      const auto found = NumValuesOf(samples, error);
+      if (!found) return std::nullopt;
+      layout.num_values = *found;
+    }
+  }
+  if (bytes.size() % layout.PointSize() != 0) {
+    *error = NotWholePoints(bytes.size(), layout);
+    return std::nullopt;
+  }
+  return layout;
+}
+
+}  // namespace quatro

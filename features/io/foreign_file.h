@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Files that are something else than their name says: a download that failed, a
+// pointer of Git LFS, a compressed file. They are known by their first bytes.
+
+#ifndef QUATRO_FEATURES_IO_FOREIGN_FILE_H_
+#define QUATRO_FEATURES_IO_FOREIGN_FILE_H_
+
+#include <string_view>
+
+namespace quatro {
+
+// What the file is and what to do about it, as the end of an error message: "is
+// gzip-compressed; run gunzip". Empty if it is nothing that is known here.
+std::string_view DescribeForeignFile(std::string_view bytes);
+
+// Whether all of the first 512 bytes are printable ASCII or white space.
+bool LooksLikeText(std::string_view bytes);
+
+}  // namespace quatro
+
+#endif  // QUATRO_FEATURES_IO_FOREIGN_FILE_H_
