@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 

@@ -22,7 +22,7 @@ inline constexpr std::string_view kBlanks = " \t\v\f";
 // Without blanks at both ends.
 std::string_view Trim(std::string_view text);
 
-// ParseNumber() of features/io/cloud_text.h, where it is finite.
+// ParseNumber() of features/base/cloud_text.h, where it is finite.
 std::optional<double> ParseFiniteNumber(std::string_view field);
 
 // All lines of a text in order, without their ends; the last may lack one.

@@ -18,7 +18,7 @@
 
 #include "experiments/base/number_text.h"
 #include "features/base/file.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 namespace {

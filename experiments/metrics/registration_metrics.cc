@@ -10,7 +10,7 @@
 #include <cstdio>
 
 #include "experiments/base/number_text.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "experiments/base/number_text.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "features/base/file.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 namespace {

@@ -11,7 +11,7 @@
 #include "experiments/protocols/added_yaw.h"
 #include "experiments/protocols/interval_pairs.h"
 #include "experiments/protocols/loop_pairs.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "experiments/runner/run_problem.h"
 #include "features/base/parallel.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 

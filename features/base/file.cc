@@ -15,8 +15,8 @@
 #include <regex>
 #include <system_error>
 
-#include "features/io/cloud_text.h"
-#include "features/io/foreign_file.h"
+#include "features/base/cloud_text.h"
+#include "features/base/foreign_file.h"
 
 namespace quatro {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "features/base/file.h"
-#include "features/io/cloud_text.h"
-#include "features/io/foreign_file.h"
+#include "features/base/cloud_text.h"
+#include "features/base/foreign_file.h"
 #include "features/io/kitti_bin.h"
 #include "features/io/pcd.h"
 #include "features/io/ply.h"

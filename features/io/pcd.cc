@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "features/io/cloud_fields.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 #include "features/io/pcd_header.h"
 
 namespace quatro {

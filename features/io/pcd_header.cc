@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "features/io/cloud_fields.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 #include "features/io/ply_header.h"
 #include "features/io/ply_rows.h"
 

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 namespace quatro {
 namespace {

@@ -19,7 +19,7 @@
 #include <string_view>
 
 #include "features/io/cloud_fields.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 #include "features/io/ply_header.h"
 
 namespace quatro {

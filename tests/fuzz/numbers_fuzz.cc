@@ -10,7 +10,7 @@
 #include "experiments/programs/ins_flags.h"
 #include "experiments/protocols/protocols.h"
 #include "experiments/runner/runner.h"
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace quatro {

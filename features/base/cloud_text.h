@@ -3,8 +3,8 @@
 // Lines, words and numbers in text files, whatever the locale. A byte order
 // mark of UTF-8 is passed over, and lines end in LF, CR LF or CR.
 
-#ifndef QUATRO_FEATURES_IO_CLOUD_TEXT_H_
-#define QUATRO_FEATURES_IO_CLOUD_TEXT_H_
+#ifndef QUATRO_FEATURES_BASE_CLOUD_TEXT_H_
+#define QUATRO_FEATURES_BASE_CLOUD_TEXT_H_
 
 #include <cstdint>
 #include <optional>
@@ -52,4 +52,4 @@ std::string Quoted(std::string_view word);
 
 }  // namespace quatro
 
-#endif  // QUATRO_FEATURES_IO_CLOUD_TEXT_H_
+#endif  // QUATRO_FEATURES_BASE_CLOUD_TEXT_H_

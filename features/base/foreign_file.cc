@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "features/io/foreign_file.h"
+#include "features/base/foreign_file.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "features/io/cloud_text.h"
+#include "features/base/cloud_text.h"
 
 #include <algorithm>
 #include <charconv>

@@ -3,8 +3,8 @@
 // Files that are something else than their name says: a download that failed, a
 // pointer of Git LFS, a compressed file. They are known by their first bytes.
 
-#ifndef QUATRO_FEATURES_IO_FOREIGN_FILE_H_
-#define QUATRO_FEATURES_IO_FOREIGN_FILE_H_
+#ifndef QUATRO_FEATURES_BASE_FOREIGN_FILE_H_
+#define QUATRO_FEATURES_BASE_FOREIGN_FILE_H_
 
 #include <string_view>
 
@@ -19,4 +19,4 @@ bool LooksLikeText(std::string_view bytes);
 
 }  // namespace quatro
 
-#endif  // QUATRO_FEATURES_IO_FOREIGN_FILE_H_
+#endif  // QUATRO_FEATURES_BASE_FOREIGN_FILE_H_
