@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "features/base/rigid3.h"
@@ -144,7 +145,23 @@ constexpr const char* kAsDictDoc =
     "dict: all properties by name, for a table or another process; "
     "arrays are copies. Can be pickled.";
 
-// Properties that the results for matches and for clouds share.
+constexpr const char* kTransformDoc =
+    "transform(points)\n--\n\n"
+    "(N, 3) points of the source in the target's frame [m], as float64. Raises "
+    "ValueError\nif there is no pose.";
+
+// Moved by the pose, if there is one.
+py::array Transform(const std::optional<Rigid3>& target_from_source,
+                    const std::string& message,
+                    const py::object& points) {
+  if (!target_from_source) {
+    throw py::value_error("there is no pose to transform by: " + message);
+  }
+  return TakePoints(
+      target_from_source->Apply(PointsArgument(points, "points").View()));
+}
+
+// What answers from matches and from clouds have in common.
 template <typename Summary>
 void BindCommon(const char* name, py::class_<Summary>* type) {
   const auto add = [type](const char* field, const char* doc, auto get) {
@@ -153,6 +170,14 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
   type->def("__repr__",
             [name](const Summary& s) { return Represent(name, s); });
   type->def("as_dict", &AsDict, kAsDictDoc);
+  type->def(
+      "transform",
+      [](const Summary& s, const py::object& points) {
+        return Transform(
+            SolutionOf(s).target_from_source, SolutionOf(s).message, points);
+      },
+      py::arg("points"),
+      kTransformDoc);
   add("method", "str: the estimator's name.", [](const Summary& s) {
     return s.method;
   });
@@ -329,6 +354,14 @@ void BindSummaries(py::module_* module) {
                     s.message + ")";
            })
       .def("as_dict", &AsDict, kAsDictDoc)
+      .def(
+          "transform",
+          [](const Alignment& a, const py::object& points) {
+            return Transform(
+                a.summary.target_from_source, a.summary.message, points);
+          },
+          py::arg("points"),
+          kTransformDoc)
       .def_readonly("method", &Alignment::method, "str: icp, gicp or vgicp.")
       .def_property_readonly(
           "termination",

@@ -5,6 +5,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -16,6 +18,26 @@
 namespace quatro {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char kStandard[] = "-";
+
+bool IsStandardOutput(const std::string& path) {
+  return path.empty() || path == kStandard;
+}
+
+std::string StandardInput(std::string* error) {
+  std::string bytes;
+  char buffer[1 << 16];
+  while (const std::size_t n = std::fread(buffer, 1, sizeof(buffer), stdin)) {
+    bytes.append(buffer, n);
+  }
+  if (std::ferror(stdin)) *error = "standard input: could not be read";
+  return bytes;
+}
+
+}  // namespace
 
 bool CanWrite(const std::string& path, std::string* error) {
   std::error_code ignored;
@@ -41,7 +63,7 @@ bool CanWrite(const std::string& path, std::string* error) {
   return true;
 }
 
-bool CanWriteAll(const std::vector<std::string>& outputs,
+bool CanWriteAll(const std::vector<OutputFlag>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error) {
   const auto full = [](const std::string& path) {
@@ -49,19 +71,68 @@ bool CanWriteAll(const std::vector<std::string>& outputs,
     return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   };
   std::vector<std::string> taken = inputs;
-  for (const std::string& output : outputs) {
+  std::string on_standard_output;  // The flag.
+  for (const auto& [name, output] : outputs) {
     if (output.empty()) continue;
+    if (output == kStandard) {
+      if (!on_standard_output.empty()) {
+        *error = "--" + on_standard_output + " and --" + name +
+                 " would both go to standard output; name a file for one of "
+                 "them";
+        return false;
+      }
+      on_standard_output = name;
+      continue;
+    }
     if (!CanWrite(output, error)) return false;
     for (const std::string& other : taken) {
-      if (full(output) != full(other)) continue;
+      if (other == kStandard || full(output) != full(other)) continue;
       *error = output +
                ": is to be written, but is also an input or another "
-               "output";
+               "output; name another file";
       return false;
     }
     taken.push_back(output);
   }
   return true;
+}
+
+bool HasEnding(const OutputFlag& output,
+               const std::string& ending,
+               std::string* error) {
+  if (IsStandardOutput(output.path) || output.path.ends_with(ending)) {
+    return true;
+  }
+  *error = "--" + output.name + "=" + output.path + ", must end with " +
+           ending + ", the only format that it is written in";
+  return false;
+}
+
+bool CanBeFolder(const OutputFlag& output, std::string* error) {
+  if (output.path.empty()) {
+    *error = "--" + output.name + " is empty, must name a folder";
+  } else if (output.path == kStandard) {
+    *error = "--" + output.name +
+             "=-: a folder cannot go to standard output; ./- is one named -";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+std::FILE* SummaryStream(const std::vector<std::string>& outputs) {
+  const bool is_taken = std::ranges::find(outputs, kStandard) != outputs.end();
+  return is_taken ? stderr : stdout;
+}
+
+std::optional<std::string> ReadInput(const std::string& path,
+                                     std::string* error) {
+  if (path != kStandard) return ReadTextFile(path, error);
+  std::string problem;
+  const std::string bytes = StandardInput(&problem);
+  if (problem.empty()) return AsText(bytes, "standard input", error);
+  *error = problem;
+  return std::nullopt;
 }
 
 std::vector<fs::path> MakeFolders(const fs::path& folder,
@@ -90,14 +161,20 @@ bool FlushOutput(std::string* error) {
 bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error) {
   std::vector<std::unique_ptr<PendingFile>> pending;
   for (const auto& [path, bytes] : files) {
-    if (path.empty()) continue;
+    if (IsStandardOutput(path)) continue;
     pending.push_back(PendingFile::Write(path, bytes, error));
     if (!pending.back()) return false;
   }
+  // A reader that has gone (| head) would end us here, with temporary files
+  // left.
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
   for (const auto& [path, bytes] : files) {
-    if (path.empty()) std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+    if (IsStandardOutput(path))
+      std::fwrite(bytes.data(), 1, bytes.size(), stdout);
   }
-  if (!FlushOutput(error)) return false;
+  const bool has_arrived = FlushOutput(error);
+  std::signal(SIGPIPE, before);
+  if (!has_arrived) return false;
   for (const auto& file : pending) {
     if (!file->Rename(error)) return false;
   }

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The output files of a program.
+// What a program leaves behind. "-" is standard output wherever a file is to be
+// written, and standard input where one is read; "./-" is a file.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
 #define QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
 
+#include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -13,22 +16,45 @@
 namespace quatro {
 
 struct OutputFile {
-  std::string path;  // Empty for standard output.
+  std::string path;  // Empty or "-": standard output.
   std::string bytes;
 };
 
-// Returns whether a file could be written here, as far as can be checked
-// beforehand.
+// A flag that names a file to write.
+struct OutputFlag {
+  std::string name;  // "json"
+  std::string path;
+};
+
+// Whether a file could be written here, as far as that can be told beforehand.
 bool CanWrite(const std::string& path, std::string* error);
 
-// Checks all outputs of a program. Empty paths are skipped. No output may be an
-// input or another output.
-bool CanWriteAll(const std::vector<std::string>& outputs,
+// The same for all outputs of a program, of which empty ones are left out. None
+// may be one of the inputs or another output, and at most one standard output.
+bool CanWriteAll(const std::vector<OutputFlag>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error);
 
-// Creates a folder and its parents, or none of them if there is an error.
-// Returns the folders that it created, innermost first.
+// Whether the file's name, if there is one and it is no "-", has the ending of
+// the only format that it can get, e.g. ".png".
+bool HasEnding(const OutputFlag& output,
+               const std::string& ending,
+               std::string* error);
+
+// Whether a folder can be asked for by this name: not empty and not "-".
+bool CanBeFolder(const OutputFlag& output, std::string* error);
+
+// Where a program prints what it did: standard output, or standard error if one
+// of its outputs goes to standard output, which is then this output alone.
+std::FILE* SummaryStream(const std::vector<std::string>& outputs);
+
+// Reads a text file, or standard input if `path` is "-". Errors are those of
+// ReadTextFile().
+std::optional<std::string> ReadInput(const std::string& path,
+                                     std::string* error);
+
+// Makes a folder and its parents, or on an error none of them. Returns those
+// that it made, the innermost first.
 std::vector<std::filesystem::path> MakeFolders(
     const std::filesystem::path& folder, std::error_code* error);
 

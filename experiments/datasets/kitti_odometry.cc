@@ -154,7 +154,7 @@ std::optional<SequenceData> ReadKittiOdometry(
   if (options.poses.empty() && !IsFile(own) && !IsFile(official)) {
     *error = folder->string() +
              ": there are no poses; looked for poses.txt and " +
-             official.string();
+             official.string() + "; name the file by --poses";
     return std::nullopt;
   }
   const std::string poses = !options.poses.empty() ? options.poses

@@ -51,7 +51,9 @@ std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
     }
     const auto number = FrameNumber(path.stem().string());
     if (!number) {
-      *error = path.string() + ": the name is not a frame number";
+      *error =
+          path.string() +
+          ": the name is not a frame number, as in 000000.bin; move it away";
       return std::nullopt;
     }
     if (!scans.emplace(*number, path.string()).second) {

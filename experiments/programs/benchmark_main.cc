@@ -17,13 +17,13 @@
 #include "experiments/base/outputs.h"
 #include "experiments/benchmarks/pair_input.h"
 #include "experiments/benchmarks/stages.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
 #include "experiments/runner/build_info.h"
 #include "experiments/simulator/pair_sets.h"
 #include "features/base/simd.h"
 #include "features/io/cloud_io.h"
 #include "features/voxel_grid.h"
-#include "robust/registration/presets.h"
 
 DEFINE_string(source,
               "",
@@ -152,8 +152,12 @@ int Main(int argc, char** argv) {
   std::vector<std::string> their_args;
   for (int i = 1; i < argc; ++i) {
     if (IsOfBenchmark(argv[i])) {
-      theirs.push_back(argv[i]);
-      their_args.emplace_back(argv[i]);
+      // Standard output has a flag of its own there.
+      static char on_standard_output[] = "--benchmark_format=json";
+      const bool is_dash =
+          std::string_view(argv[i]).ends_with("benchmark_out=-");
+      theirs.push_back(is_dash ? on_standard_output : argv[i]);
+      their_args.emplace_back(theirs.back());
     } else {
       ours.push_back(argv[i]);
     }
@@ -171,16 +175,19 @@ int Main(int argc, char** argv) {
   const auto sizes = ParseSizes(&error);
   if (!sizes) return Fail(error);
   if (!AreValid(their_args, &error)) return Fail(error);
-  auto options = quatro::MakePreset(FLAGS_preset);
-  if (!options) return Fail("--preset=" + FLAGS_preset + " is not a preset");
+  auto options = quatro::FindPreset(FLAGS_preset, &error);
+  if (!options) return Fail(error);
   options->num_threads = FLAGS_threads;
   if (!options->IsValid(&error)) return Fail(error);
   if (FLAGS_source.empty() != FLAGS_target.empty()) {
-    return Fail("--source and --target must be given together");
+    return Fail((FLAGS_source.empty() ? "--source" : "--target") +
+                std::string(" is empty, but the other cloud is named; name "
+                            "both, or neither for a simulated pair"));
   }
   const std::string out = BenchmarkFlag(their_args, "out");
   if (!out.empty() &&
-      !quatro::CanWriteAll({out}, {FLAGS_source, FLAGS_target}, &error)) {
+      !quatro::CanWriteAll(
+          {{"benchmark_out", out}}, {FLAGS_source, FLAGS_target}, &error)) {
     return Fail(error);
   }
   std::optional<quatro::PointCloud> source, target;

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "experiments/base/outputs.h"
 #include "experiments/metrics/registration_metrics.h"
 #include "experiments/programs/experiment_flags.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/gnc_film.h"
 #include "experiments/programs/methods.h"
 #include "experiments/programs/program.h"
@@ -92,8 +94,9 @@ int LeaveTables(const quatro::TableOptions& options) {
 
 int RunPairs(const std::vector<quatro::OwnMethod>& own) {
   std::string error;
-  if (FLAGS_output.empty())
-    return Fail("--output is empty, must name a folder");
+  if (!quatro::CanBeFolder({"output", FLAGS_output}, &error)) {
+    return Fail(error);
+  }
   const auto methods = quatro::MethodsOfFlags(own, &error);
   if (!methods) return Fail(error);
   const auto limits = quatro::ParseLimits(FLAGS_limits, &error);
@@ -109,7 +112,10 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
     std::fprintf(stderr, "%s\n", note.c_str());
   }
   if (selection->tasks.empty()) {
-    return Fail("there are no pairs; see the flags that select them");
+    return Fail(
+        "there are no pairs to run: no two scans are as far apart as asked "
+        "for; see --sequences, --bins, --intervals, --min_frame_gap and "
+        "--min_path");
   }
   quatro::PairExperiment experiment;
   experiment.tasks = selection->tasks;
@@ -176,8 +182,8 @@ bool TakeOdometryManifest(const std::vector<quatro::SequenceData>& drives,
 
 int RunOdometryProtocol() {
   std::string error;
-  if (FLAGS_output.empty()) {
-    return Fail("--output is empty, must name a folder");
+  if (!quatro::CanBeFolder({"output", FLAGS_output}, &error)) {
+    return Fail(error);
   }
   quatro::OdometryRunOptions options;
   options.methods = quatro::SplitNames(FLAGS_methods);
@@ -195,19 +201,17 @@ int RunOdometryProtocol() {
   if (!drives) return Fail(error);
   if (!TakeOdometryManifest(*drives, &error)) return Fail(error);
   TellNotes(*drives);
+  // A line for each run.
+  std::map<std::string, quatro::ProgressLine> lines;
   const auto results = quatro::RunOdometries(
       *drives,
       options,
       FLAGS_output,
-      [](const quatro::OdometryRunProgress& now) {
-        std::fprintf(stderr,
-                     "\r%s, %s, interval %d: %d of %d scans   %s",
-                     now.drive.c_str(),
-                     now.method.c_str(),
-                     now.interval,
-                     now.num_done,
-                     now.num_scans,
-                     now.num_done == now.num_scans ? "\n" : "");
+      [&lines](const quatro::OdometryRunProgress& now) {
+        const std::string run = now.drive + ", " + now.method + ", interval " +
+                                std::to_string(now.interval) + ": ";
+        lines.try_emplace(run, "scans", run)
+            .first->second(now.num_done, now.num_scans);
       },
       &error);
   if (!results) return Fail(error);
@@ -228,8 +232,8 @@ int RunOdometryProtocol() {
 
 int RunTiltProtocol() {
   std::string error;
-  if (FLAGS_output.empty()) {
-    return Fail("--output is empty, must name a folder");
+  if (!quatro::CanBeFolder({"output", FLAGS_output}, &error)) {
+    return Fail(error);
   }
   const auto bins = quatro::ParseBins(FLAGS_bins, &error);
   if (!bins) return Fail("--bins: " + error);
@@ -281,20 +285,29 @@ int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
   }
   std::string error;
   if (FLAGS_seeds < 1 || FLAGS_seeds > quatro::kMaxSeeds) {
-    return Fail("--seeds must be 1 to " + std::to_string(quatro::kMaxSeeds));
+    return Fail(quatro::FlagProblem(
+        "seeds", FLAGS_seeds, "1 to " + std::to_string(quatro::kMaxSeeds)));
   }
   if (FLAGS_max_matches < 1000 || FLAGS_max_matches > kMaxMatches) {
-    return Fail("--max_matches must be 1000 to " + std::to_string(kMaxMatches));
+    return Fail(quatro::FlagProblem("max_matches",
+                                    FLAGS_max_matches,
+                                    "1000 to " + std::to_string(kMaxMatches)));
   }
   if (!(FLAGS_outliers >= 0.0 && FLAGS_outliers < 1.0)) {
-    return Fail("--outliers must be in [0, 1)");
+    return Fail(quatro::FlagProblem("outliers", FLAGS_outliers, "in [0, 1)"));
   }
-  if (FLAGS_report_views < 0) return Fail("--report_views must be >= 0");
-  if (FLAGS_threads < 0) return Fail("--threads must be >= 0");
+  if (FLAGS_report_views < 0) {
+    return Fail(
+        quatro::FlagProblem("report_views", FLAGS_report_views, ">= 0"));
+  }
+  if (FLAGS_threads < 0) {
+    return Fail(
+        quatro::FlagProblem("threads", FLAGS_threads, ">= 0; 0: one per core"));
+  }
   if (IsOfPairs()) return RunPairs(own);
   if (FLAGS_protocol == "odometry") return RunOdometryProtocol();
   if (FLAGS_protocol == "tilt") return RunTiltProtocol();
-  if (!FLAGS_output.empty() && !quatro::CanWrite(FLAGS_output, &error)) {
+  if (!quatro::CanWriteAll({{"output", FLAGS_output}}, {}, &error)) {
     return Fail(error);
   }
   const auto table = RunSynthetic(FLAGS_protocol);
@@ -304,7 +317,8 @@ int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
                 "synthetic, tims, degeneracy, quasi_inliers, sizes, slopes, "
                 "surrogates or film");
   }
-  std::fputs(quatro::FormatTable(*table).c_str(), stdout);
+  std::fputs(quatro::FormatTable(*table).c_str(),
+             quatro::SummaryStream({FLAGS_output}));
   if (!FLAGS_output.empty() &&
       !quatro::WriteOutputs({{FLAGS_output, quatro::FormatCsv(*table)}},
                             &error)) {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
 #include "features/base/random.h"
 #include "robust/gnc/ceres_gnc.h"
@@ -60,10 +61,12 @@ int Main(int argc, char** argv) {
     return *exit_code;
   }
   if (FLAGS_points < 2 || FLAGS_points > 1000000) {
-    return quatro::Fail("--points must be 2 to 1000000");
+    return quatro::Fail(
+        quatro::FlagProblem("points", FLAGS_points, "2 to 1000000"));
   }
   if (!(FLAGS_outliers >= 0.0 && FLAGS_outliers <= 1.0)) {
-    return quatro::Fail("--outliers must be 0 to 1");
+    return quatro::Fail(
+        quatro::FlagProblem("outliers", FLAGS_outliers, "0 to 1"));
   }
 
   double line[2] = {0.0, 0.0};

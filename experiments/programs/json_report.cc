@@ -308,6 +308,10 @@ Json DescribeOptions(const FrontEndOptions& options) {
           {"tuple_scale", options.tuple.scale}};
 }
 
+std::string JsonPath(const std::string& json_flag, bool explain_flag) {
+  return json_flag.empty() && !explain_flag ? "-" : json_flag;
+}
+
 std::string Version() { return QUATRO_VERSION; }
 
 }  // namespace quatro

@@ -45,6 +45,10 @@ Json DescribeRefinement(const std::optional<RefinementSummary>& refinement);
 Json DescribeOptions(const QuatroOptions& options);
 Json DescribeOptions(const FrontEndOptions& options);
 
+// Where it goes by --json and --explain, which takes its place on standard
+// output: a file, "-" or, empty, nowhere.
+std::string JsonPath(const std::string& json_flag, bool explain_flag);
+
 // The library's version.
 std::string Version();
 

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "experiments/base/number_text.h"
-#include "features/base/file.h"
+#include "experiments/base/one_line.h"
+#include "experiments/base/outputs.h"
 #include "features/base/cloud_text.h"
 
 namespace quatro {
@@ -45,10 +46,11 @@ std::vector<std::string_view> Fields(std::string_view line) {
 
 std::optional<MatchedPoints> ReadMatches(const std::string& path,
                                          std::string* error) {
-  const std::optional<std::string> text = ReadTextFile(path, error);
+  const std::optional<std::string> text = ReadInput(path, error);
   if (!text) return std::nullopt;
+  const std::string name = path == "-" ? "standard input" : path;
   if (text->empty()) {
-    *error = path + ": is empty; expected lines of sx,sy,sz,tx,ty,tz";
+    *error = name + ": is empty; expected lines of sx,sy,sz,tx,ty,tz";
     return std::nullopt;
   }
 
@@ -60,7 +62,7 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
     const std::vector<std::string_view> fields = Fields(line);
     if (fields.empty() || fields.front().starts_with('#')) continue;
 
-    const std::string where = path + ": line " + std::to_string(line_number);
+    const std::string where = name + ": line " + std::to_string(line_number);
     if (line.find(';') != std::string_view::npos) {
       *error = where +
                " has semicolons, must have commas between columns and "

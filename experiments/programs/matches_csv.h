@@ -20,9 +20,9 @@ struct MatchedPoints {
   Points target;  // [m]
 };
 
-// Returns nullopt and sets *error (file, line, column and reason) unless each
-// line has six finite numbers, and for an empty file. A file with only a header
-// line contains no matches.
+// Returns nullopt and says file, line, column and reason in *error for anything
+// but six finite numbers a line, and for an empty file; "-" is standard input.
+// A file that has a line of names and no matches is read as no matches.
 std::optional<MatchedPoints> ReadMatches(const std::string& path,
                                          std::string* error);
 

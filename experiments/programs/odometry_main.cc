@@ -17,9 +17,9 @@
 #include "experiments/odometry/odometry_methods.h"
 #include "experiments/odometry/outside_drift.h"
 #include "experiments/odometry/table_two.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
 #include "experiments/programs/progress_line.h"
-#include "robust/registration/presets.h"
 
 DEFINE_string(input,
               "",
@@ -89,26 +89,29 @@ void TellLostScans(const quatro::OdometryRun& run) {
   }
 }
 
-void PrintSummary(const quatro::OdometryRun& run) {
-  std::printf("%zu scans, %d lost (%d unreadable), %.0f ms a scan\n",
-              run.steps.size(),
-              run.num_lost,
-              run.num_unreadable,
-              1e3 * run.MedianSeconds());
+void PrintSummary(std::FILE* out, const quatro::OdometryRun& run) {
+  std::fprintf(out,
+               "%zu scans, %d lost (%d unreadable), %.0f ms a scan\n",
+               run.steps.size(),
+               run.num_lost,
+               run.num_unreadable,
+               1e3 * run.MedianSeconds());
 }
 
-void PrintDrift(const quatro::KittiDrift& drift) {
-  std::printf("path %.1f m, %.3f m and %.3f deg off at its end\n",
-              drift.path_length,
-              drift.end_translation_error,
-              drift.end_rotation_error * 180.0 / M_PI);
+void PrintDrift(std::FILE* out, const quatro::KittiDrift& drift) {
+  std::fprintf(out,
+               "path %.1f m, %.3f m and %.3f deg off at its end\n",
+               drift.path_length,
+               drift.end_translation_error,
+               drift.end_rotation_error * 180.0 / M_PI);
   if (drift.segments.empty()) {
-    std::printf("no segment of 100 m: no t_rel and r_rel\n");
+    std::fprintf(out, "no segment of 100 m: no t_rel and r_rel\n");
   } else {
-    std::printf("t_rel %.3f %%, r_rel %.3f deg/100 m over %zu segments\n",
-                drift.translation_percent,
-                drift.rotation_deg_per_100m,
-                drift.segments.size());
+    std::fprintf(out,
+                 "t_rel %.3f %%, r_rel %.3f deg/100 m over %zu segments\n",
+                 drift.translation_percent,
+                 drift.rotation_deg_per_100m,
+                 drift.segments.size());
   }
 }
 
@@ -124,9 +127,12 @@ int Main(int argc, char** argv) {
   }
   std::string error;
   if (FLAGS_input.empty()) return Fail("--input is empty, must name a folder");
-  if (FLAGS_threads < 0) return Fail("--threads must be >= 0");
-  auto registration = quatro::MakePreset(FLAGS_preset);
-  if (!registration) return Fail("--preset=" + FLAGS_preset + " is not known");
+  if (FLAGS_threads < 0) {
+    return Fail(
+        quatro::FlagProblem("threads", FLAGS_threads, ">= 0; 0: one per core"));
+  }
+  auto registration = quatro::FindPreset(FLAGS_preset, &error);
+  if (!registration) return Fail(error);
   registration->num_threads = FLAGS_threads;
   const auto odometry =
       quatro::MakeOdometry(FLAGS_method, *registration, &error);
@@ -158,7 +164,10 @@ int Main(int argc, char** argv) {
     if (!truth) return Fail(error);
   }
   if (!truth && (!outside->empty() || FLAGS_quoted || !FLAGS_table.empty())) {
-    return Fail("--outside, --quoted and --table need true poses (--truth)");
+    return Fail(
+        "--outside, --quoted and --table need true poses: name a poses.txt by "
+        "--truth, because " +
+        FLAGS_input + " has none");
   }
   const auto frames = quatro::FramesOf(*scans, options, &error);
   if (!frames) return Fail(error);
@@ -177,7 +186,8 @@ int Main(int argc, char** argv) {
   std::vector<std::string> inputs = {calib, truth_path};
   for (const auto& [frame, path] : *scans) inputs.push_back(path);
   for (const auto& result : *outside) inputs.push_back(result.path);
-  if (!quatro::CanWriteAll({FLAGS_output, FLAGS_table}, inputs, &error)) {
+  if (!quatro::CanWriteAll(
+          {{"output", FLAGS_output}, {"table", FLAGS_table}}, inputs, &error)) {
     return Fail(error);
   }
 
@@ -185,7 +195,8 @@ int Main(int argc, char** argv) {
       *scans, options, odometry.get(), quatro::ProgressLine("scans"), &error);
   if (!run) return Fail(error);
   TellLostScans(*run);
-  PrintSummary(*run);
+  std::FILE* const out = quatro::SummaryStream({FLAGS_output, FLAGS_table});
+  PrintSummary(out, *run);
   const std::vector<quatro::Rigid3> poses =
       cam0_from_lidar ? quatro::MoveToCam0(run->Poses(), *cam0_from_lidar)
                       : run->Poses();
@@ -197,7 +208,7 @@ int Main(int argc, char** argv) {
     const auto drift = quatro::ComputeKittiDrift(
         *quatro::SelectFrames(*truth, run->frames, &error), poses, {}, &error);
     if (!drift) return Fail(error);
-    PrintDrift(*drift);
+    PrintDrift(out, *drift);
     entries.insert(
         entries.begin(),
         quatro::MeasuredEntry(FLAGS_method, FLAGS_interval, *run, *drift));
@@ -207,7 +218,7 @@ int Main(int argc, char** argv) {
     }
     const quatro::Table table = quatro::MakeTableTwo(entries);
     if (FLAGS_quoted || !outside->empty()) {
-      std::fputs(quatro::FormatTable(table).c_str(), stdout);
+      std::fputs(quatro::FormatTable(table).c_str(), out);
     }
     if (!FLAGS_table.empty()) {
       files.push_back({FLAGS_table, quatro::FormatCsv(table)});

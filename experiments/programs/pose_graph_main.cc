@@ -13,6 +13,7 @@
 #include "experiments/pose_graphs/pose_graph_problem.h"
 #include "experiments/pose_graphs/pose_graph_protocol.h"
 #include "experiments/pose_graphs/pose_graph_worlds.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
 #include "experiments/programs/progress_line.h"
 #include "experiments/protocols/synthetic_protocols.h"
@@ -87,7 +88,8 @@ std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
   options.loss = *loss;
   options.inlier_probability = FLAGS_inlier_probability;
   if (!(FLAGS_inlier_probability > 0.0 && FLAGS_inlier_probability < 1.0)) {
-    *error = "--inlier_probability must be > 0 and < 1";
+    *error = quatro::FlagProblem(
+        "inlier_probability", FLAGS_inlier_probability, "> 0 and < 1");
     return std::nullopt;
   }
   if (FLAGS_gnc_start != "plain_fit" && FLAGS_gnc_start != "identity") {
@@ -130,7 +132,8 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
         "--input or --world_output");
   }
   if (FLAGS_seeds < 1 || FLAGS_seeds > quatro::kMaxSeeds) {
-    return Fail("--seeds must be 1 to " + std::to_string(quatro::kMaxSeeds));
+    return Fail(quatro::FlagProblem(
+        "seeds", FLAGS_seeds, "1 to " + std::to_string(quatro::kMaxSeeds)));
   }
   // The smallest outlier share needs the most inlier loops.
   for (const char* name : {"manhattan", "sphere"}) {
@@ -144,7 +147,8 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
   }
   const quatro::Table table = quatro::RunWrongLoopProtocol(
       FLAGS_seeds, WorldFromFlags(), options, quatro::ProgressLine("worlds"));
-  std::fputs(quatro::FormatTable(table).c_str(), stdout);
+  std::fputs(quatro::FormatTable(table).c_str(),
+             quatro::SummaryStream({FLAGS_output}));
   if (!FLAGS_output.empty() &&
       !quatro::WriteOutputs({{FLAGS_output, quatro::FormatCsv(table)}},
                             &error)) {
@@ -154,7 +158,8 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
 }
 
 // Prints how many outliers kept some weight and how many inliers lost theirs.
-void PrintTruth(const quatro::GraphWorld& world,
+void PrintTruth(std::FILE* out,
+                const quatro::GraphWorld& world,
                 const quatro::PoseGraphOptions& options,
                 const quatro::PoseGraph& answer,
                 const std::vector<double>& weights) {
@@ -173,7 +178,8 @@ void PrintTruth(const quatro::GraphWorld& world,
   quatro::SolvePoseGraph(plain, &clean);
   const auto difference =
       quatro::LargestDifference(answer.world_from_pose, clean.world_from_pose);
-  std::printf(
+  std::fprintf(
+      out,
       "%d outlier loops, %d of them accepted; %d inlier loops rejected; poses "
       "differ from those without outliers by at most %.3g m and %.3g rad\n",
       num_wrong,
@@ -192,7 +198,9 @@ int Main(int argc, char** argv) {
   const auto options = OptionsFromFlags(&error);
   if (!options) return Fail(error);
   if (!quatro::CanWriteAll(
-          {FLAGS_output, FLAGS_world_output}, {FLAGS_input}, &error)) {
+          {{"output", FLAGS_output}, {"world_output", FLAGS_world_output}},
+          {FLAGS_input},
+          &error)) {
     return Fail(error);
   }
   if (!FLAGS_protocol.empty()) return RunProtocol(*options);
@@ -212,19 +220,23 @@ int Main(int argc, char** argv) {
     graph = std::move(*read);
     if (FLAGS_chain_odometry) quatro::ChainOdometry(&graph);
   }
+  std::FILE* const out =
+      quatro::SummaryStream({FLAGS_output, FLAGS_world_output});
   const auto summary = quatro::SolvePoseGraph(*options, &graph);
-  std::printf("%zu poses, %zu edges, %.3f s\n%s\n",
-              graph.ids.size(),
-              graph.edges.size(),
-              summary.seconds,
-              summary.report.c_str());
+  std::fprintf(out,
+               "%zu poses, %zu edges, %.3f s\n%s\n",
+               graph.ids.size(),
+               graph.edges.size(),
+               summary.seconds,
+               summary.report.c_str());
   if (FLAGS_full_report) {
-    std::fputs(summary.gnc.FullReport().c_str(), stdout);
+    std::fputs(summary.gnc.FullReport().c_str(), out);
   }
   if (!summary.is_usable) return quatro::kExitNotVouchedFor;
   const auto parts = quatro::FirstOfParts(graph, summary.weights);
   if (parts.size() > 1) {
-    std::printf(
+    std::fprintf(
+      out,
         "the graph has %zu components: neither odometry nor an accepted loop "
         "joins pose %lld to pose %lld; add edges between them\n",
         parts.size(),
@@ -232,7 +244,7 @@ int Main(int argc, char** argv) {
         static_cast<long long>(graph.ids[parts[0]]));
     return quatro::kExitNotVouchedFor;
   }
-  if (world) PrintTruth(*world, *options, graph, summary.weights);
+  if (world) PrintTruth(out, *world, *options, graph, summary.weights);
 
   std::vector<quatro::OutputFile> files;
   if (!FLAGS_output.empty()) {

@@ -14,6 +14,7 @@
 
 #include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
+#include "experiments/programs/bad_flag.h"
 #include "experiments/programs/progress_line.h"
 
 DECLARE_bool(help);
@@ -91,6 +92,11 @@ std::optional<int> ParseFlags(const std::string& usage,
                               char** argv) {
   gflags::SetUsageMessage(usage + " Exits with 3 if memory runs out.");
   GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::exit(kExitBadInput); };
+  // For the program's name in what Fail() prints.
+  gflags::SetArgv(argc, const_cast<const char**>(argv));
+  if (const auto problem = TellBadFlag({argv + 1, argv + argc})) {
+    return Fail(*problem);
+  }
   gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
   if (FLAGS_version) {
     std::printf(
@@ -101,7 +107,9 @@ std::optional<int> ParseFlags(const std::string& usage,
     gflags::ShowUsageWithFlagsRestrict(argv[0], main_file.c_str());
     return kExitDone;
   }
-  if (argc > 1) return Fail(std::string(argv[1]) + ": not a flag");
+  if (argc > 1)
+    return Fail(std::string(argv[1]) +
+                ": not a flag, must be --name=value; --help lists all");
   return std::nullopt;
 }
 

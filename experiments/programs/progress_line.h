@@ -1,53 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A progress line on standard error that is overwritten in place: how much is
-// done, and how long the rest will take.
+// How much is done and how long the rest will take, on standard error. On a
+// terminal this is one line that is written over. Elsewhere, as in the log of a
+// batch job, it is a line every ten seconds at most, and one at the end.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
 
 #include <cstdio>
+#include <functional>
 #include <string>
-#include <utility>
-
-#include "features/base/stopwatch.h"
 
 namespace quatro {
 
-// Whether the cursor is after an unfinished progress line.
-inline bool& IsProgressLineOpen() {
-  static bool is_open = false;
-  return is_open;
-}
-
-// Starts a new line for the next output, such as an error.
-inline void EndProgressLine() {
-  if (IsProgressLineOpen()) std::fputc('\n', stderr);
-  IsProgressLineOpen() = false;
-}
+// Before an error, say, so that it gets a line of its own.
+void EndProgressLine();
 
 class ProgressLine {
  public:
-  // `things` is what is counted, e.g. "scans".
-  explicit ProgressLine(std::string things) : things_(std::move(things)) {}
+  // Where it is printed. The clock tells seconds from any start.
+  struct Output {
+    std::FILE* file;
+    bool is_terminal;
+    std::function<double()> clock;
+  };
 
-  void operator()(int num_done, int num_things) {
-    elapsed_ += stopwatch_.Lap();
-    const double left = elapsed_ / num_done * (num_things - num_done);
-    std::fprintf(stderr,
-                 "\r%d of %d %s, %.0f s left   %s",
-                 num_done,
-                 num_things,
-                 things_.c_str(),
-                 left,
-                 num_done == num_things ? "\n" : "");
-    IsProgressLineOpen() = num_done != num_things;
-  }
+  // `things` is what is counted, e.g. "scans"; `label` is printed in front.
+  explicit ProgressLine(std::string things, std::string label = "");
+  ProgressLine(std::string things, std::string label, Output output);
+
+  void operator()(int num_done, int num_things);
 
  private:
   std::string things_;
-  Stopwatch stopwatch_;
-  double elapsed_ = 0.0;  // [s]
+  std::string label_;
+  Output output_;
+  double start_;         // [s]
+  double last_printed_;  // [s], at first the start.
+  bool has_ended_ = false;
 };
 
 }  // namespace quatro

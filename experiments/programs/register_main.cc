@@ -7,8 +7,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "experiments/base/outputs.h"
+#include "experiments/programs/aligned_clouds.h"
+#include "experiments/programs/bound_flags.h"
 #include "experiments/programs/explain.h"
 #include "experiments/programs/ins_flags.h"
 #include "experiments/programs/json_report.h"
@@ -58,7 +61,19 @@ DEFINE_string(target_rpy_deg,
 DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
-DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
+DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
+DEFINE_string(guess,
+              "",
+              "A prior on target_from_source: x,y,z,yaw_deg, or a text file of "
+              "4, 12 or 16 numbers (the rows of a matrix); empty: no motion");
+DEFINE_double(max_translation,
+              0.0,
+              "Largest distance from the guess [m]; 0: any");
+DEFINE_double(max_yaw_deg, 180.0, "Largest yaw from the guess [deg]; 180: any");
+DEFINE_double(
+    max_tilt_deg,
+    5.0,
+    "Largest tilt from the guess [deg], with one of the bounds above");
 DEFINE_bool(crosscheck,
             false,
             "Solve every weighted subproblem by Ceres too and report the "
@@ -70,16 +85,22 @@ DEFINE_double(fpfh_radius,
               "Radius of the descriptors [m]; 0: the preset's");
 DEFINE_double(noise_bound,
               0.0,
-              "Largest error of an inlier [m]; 0: the preset's");
-DEFINE_uint64(seed, 0, "Random seed");
-DEFINE_int32(threads,
-             0,
-             "Threads; 0: one per core. Does not affect the result");
-DEFINE_string(json, "", "File for the answer; empty: standard output");
+              "How far a right match may be off [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Of all that is drawn at random");
+DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+DEFINE_string(json, "", "File for the answer; empty or -: standard output");
 DEFINE_bool(explain,
             false,
             "Print what came of each stage in plain words, in place of the "
             "JSON on standard output");
+DEFINE_string(output,
+              "",
+              "File for the source in the target's frame: .bin, .ply or .pcd; "
+              "written only if there is a pose");
+DEFINE_string(output_clouds,
+              "source",
+              "What --output gets: source, or both; intensity is then 0 for "
+              "the source and 1 for the target");
 DEFINE_string(picture, "", "PNG file for both clouds before and after");
 DEFINE_string(report,
               "",
@@ -98,6 +119,17 @@ std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
                                 FLAGS_ins_std_deg,
                                 FLAGS_gravity},
                                error);
+}
+
+// For a method that starts from the guess, `is_local`.
+std::optional<quatro::PoseBounds> BoundsFromFlags(bool is_local,
+                                                  std::string* error) {
+  return quatro::ParseBoundFlags({FLAGS_guess,
+                                  FLAGS_max_translation,
+                                  FLAGS_max_yaw_deg,
+                                  FLAGS_max_tilt_deg},
+                                 is_local,
+                                 error);
 }
 
 // The report's header: what the answer depends on.
@@ -171,6 +203,10 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   }
   if (!options->IsValid(error)) return std::nullopt;
   options->ins = ins;
+  const auto bounds =
+      BoundsFromFlags(quatro::StartsFromGuess(FLAGS_method), error);
+  if (!bounds) return std::nullopt;
+  options->bounds = *bounds;
   if (quatro::FindCloudSolver(FLAGS_method)) {
     const char* unused = nullptr;
     if (FLAGS_refine != "none") unused = "refine";
@@ -201,10 +237,21 @@ int Main(int argc, char** argv) {
   if (FLAGS_source.empty()) return Fail("--source is empty, must name a cloud");
   if (FLAGS_target.empty()) return Fail("--target is empty, must name a cloud");
   // What can be found wrong at once is found before the work is done.
+  const quatro::AlignedOutput aligned{FLAGS_output, FLAGS_output_clouds};
+  if (!aligned.IsValid(&error)) return Fail(error);
   if (!quatro::CanWriteAll(
-          {FLAGS_json, FLAGS_picture, FLAGS_report, FLAGS_correspondences_out},
+          {{"json", quatro::JsonPath(FLAGS_json, FLAGS_explain)},
+           {"explain", FLAGS_explain ? "-" : ""},
+           {"picture", FLAGS_picture},
+           {"report", FLAGS_report},
+           {"correspondences_out", FLAGS_correspondences_out},
+           {"output", FLAGS_output}},
           {FLAGS_source, FLAGS_target},
           &error)) {
+    return Fail(error);
+  }
+  if (!quatro::HasEnding({"picture", FLAGS_picture}, ".png", &error) ||
+      !quatro::HasEnding({"report", FLAGS_report}, ".html", &error)) {
     return Fail(error);
   }
   if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
@@ -225,6 +272,10 @@ int Main(int argc, char** argv) {
   if (!source) return Fail(error);
   const auto target = quatro::ReadCloud(FLAGS_target, reading, &error);
   if (!target) return Fail(error);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(FLAGS_source, FLAGS_target, ignored)) {
+    std::fprintf(stderr, "source and target are the same file\n");
+  }
   auto options = OptionsFromFlags(*source, *target, *ins, &error);
   if (!options) return Fail(error);
   options->progress = [](const quatro::StageTime& time) {
@@ -235,8 +286,9 @@ int Main(int argc, char** argv) {
   const quatro::CloudSolver cloud_solver =
       quatro::FindCloudSolver(FLAGS_method);
   const quatro::RegistrationSummary summary =
-      cloud_solver ? cloud_solver(*source, *target, quatro::Rigid3(), *options)
-                   : quatro::Register(*source, *target, *options);
+      cloud_solver
+          ? cloud_solver(*source, *target, options->bounds.guess, *options)
+          : quatro::Register(*source, *target, *options);
   if (!summary.error.empty()) return Fail(summary.error);
 
   quatro::Json report = quatro::MakeReport(FLAGS_method,
@@ -263,6 +315,7 @@ int Main(int argc, char** argv) {
   report["parameters"].update(quatro::DescribeOptions(options->front_end));
   report["parameters"].update(quatro::DescribeOptions(options->quatro));
   report["parameters"].update(quatro::DescribeOptions(*ins));
+  report["parameters"].update(quatro::DescribeOptions(options->bounds));
   report["version"] = quatro::Version();
   std::fprintf(stderr,
                "%-12s %9.1f ms\n%s: %s\n",
@@ -276,6 +329,16 @@ int Main(int argc, char** argv) {
     files.push_back({FLAGS_correspondences_out,
                      quatro::FormatMatches(summary.matched_source,
                                            summary.matched_target)});
+  }
+  if (!FLAGS_output.empty() && summary.target_from_source()) {
+    const auto bytes =
+        aligned.Format(*source, *target, *summary.target_from_source(), &error);
+    if (!bytes) return Fail(error);
+    files.push_back({FLAGS_output, *bytes});
+  } else if (!FLAGS_output.empty()) {
+    std::fprintf(stderr,
+                 "%s: not written, because there is no pose\n",
+                 FLAGS_output.c_str());
   }
   if (!FLAGS_picture.empty()) {
     const auto picture = quatro::DrawRegistration(
@@ -305,9 +368,8 @@ int Main(int argc, char** argv) {
                                               ManifestOf(report),
                                               *report_template)});
   }
-  if (!FLAGS_explain || !FLAGS_json.empty()) {
-    files.push_back({FLAGS_json, report.dump(2) + "\n"});
-  }
+  const std::string json_path = quatro::JsonPath(FLAGS_json, FLAGS_explain);
+  if (!json_path.empty()) files.push_back({json_path, report.dump(2) + "\n"});
   if (FLAGS_explain) files.push_back({"", quatro::Explain(report)});
   if (!quatro::WriteOutputs(files, &error)) return Fail(error);
   return summary.verdict.IsRegistered() ? quatro::kExitDone

@@ -12,10 +12,10 @@
 #include "experiments/pose_graphs/g2o.h"
 #include "experiments/pose_graphs/pose_graph_problem.h"
 #include "experiments/pose_graphs/scan_graph.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
 #include "experiments/programs/progress_line.h"
 #include "features/io/cloud_io.h"
-#include "robust/registration/presets.h"
 
 DEFINE_string(scans,
               "",
@@ -77,10 +77,20 @@ int Main(int argc, char** argv) {
   }
   std::string error;
   const std::vector<std::string> paths = SplitAtCommas(FLAGS_scans);
-  if (paths.size() < 3) return Fail("--scans must name three clouds or more");
-  if (FLAGS_odometry.empty()) return Fail("--odometry is empty");
-  auto registration = quatro::MakePreset(FLAGS_preset);
-  if (!registration) return Fail("--preset=" + FLAGS_preset + " is not known");
+  if (paths.size() < 3) {
+    return Fail(quatro::FlagProblem(
+        "scans", FLAGS_scans, "three clouds or more: a.bin,b.bin,c.bin"));
+  }
+  for (const std::string& path : paths) {
+    if (!path.empty()) continue;
+    return Fail(quatro::FlagProblem(
+        "scans", FLAGS_scans, "names of clouds; one between commas is empty"));
+  }
+  if (FLAGS_odometry.empty()) {
+    return Fail("--odometry is empty, must name a g2o file");
+  }
+  auto registration = quatro::FindPreset(FLAGS_preset, &error);
+  if (!registration) return Fail(error);
   registration->seed = FLAGS_seed;
   registration->num_threads = FLAGS_threads;
   if (!registration->IsValid(&error)) return Fail(error);
@@ -93,31 +103,40 @@ int Main(int argc, char** argv) {
   options.loss = *loss;
   options.inlier_probability = FLAGS_inlier_probability;
   if (!(FLAGS_inlier_probability > 0.0 && FLAGS_inlier_probability < 1.0)) {
-    return Fail("--inlier_probability must be > 0 and < 1");
+    return Fail(quatro::FlagProblem(
+        "inlier_probability", FLAGS_inlier_probability, "> 0 and < 1"));
   }
   if (!(FLAGS_loop_sigma_m >= quatro::kMinSigma &&
         FLAGS_loop_sigma_m <= quatro::kMaxSigmaM)) {
-    return Fail("--loop_sigma_m must be 1e-6 to 1e6");
+    return Fail(quatro::FlagProblem(
+        "loop_sigma_m", FLAGS_loop_sigma_m, "1e-6 to 1e6 [m]"));
   }
   if (!(FLAGS_loop_sigma_deg >= quatro::kMinSigma &&
         FLAGS_loop_sigma_deg <= quatro::kMaxSigmaDeg)) {
-    return Fail("--loop_sigma_deg must be 1e-6 to 180");
+    return Fail(quatro::FlagProblem(
+        "loop_sigma_deg", FLAGS_loop_sigma_deg, "1e-6 to 180 [deg]"));
   }
   std::vector<std::string> inputs = paths;
   inputs.push_back(FLAGS_odometry);
-  if (!quatro::CanWriteAll({FLAGS_output}, inputs, &error)) return Fail(error);
+  if (!quatro::CanWriteAll({{"output", FLAGS_output}}, inputs, &error))
+    return Fail(error);
 
   auto graph = quatro::ReadG2o(FLAGS_odometry, &error);
   if (!graph) return Fail(error);
   if (graph->dimension != 3 || graph->ids.size() != paths.size()) {
-    return Fail(FLAGS_odometry + ": must have a pose in space for each of " +
-                std::to_string(paths.size()) + " scans");
+    return Fail(FLAGS_odometry + ": has " + std::to_string(graph->ids.size()) +
+                (graph->dimension == 3 ? " poses" : " poses in the plane") +
+                ", must have a pose in space for each of the " +
+                std::to_string(paths.size()) + " clouds of --scans");
   }
   std::vector<bool> is_reached(paths.size());
   for (const quatro::PoseEdge& edge : graph->edges) {
     if (!edge.IsOdometry()) {
-      return Fail(FLAGS_odometry +
-                  ": has an edge that does not join consecutive poses");
+      return Fail(FLAGS_odometry + ": has an edge from pose " +
+                  std::to_string(graph->ids[edge.from]) + " to pose " +
+                  std::to_string(graph->ids[edge.to]) +
+                  ", must have edges between poses that follow each other "
+                  "alone; loops are found by registration");
     }
     is_reached[edge.to] = true;
   }
@@ -144,17 +163,19 @@ int Main(int argc, char** argv) {
                        FLAGS_loop_sigma_m, FLAGS_loop_sigma_deg * M_PI / 180.0),
                    &*graph);
   const auto summary = quatro::SolvePoseGraph(options, &*graph);
+  std::FILE* const out = quatro::SummaryStream({FLAGS_output});
   std::size_t edge = num_odometry;
   for (const quatro::ScanPair& pair : pairs) {
     const std::string weight =
         pair.from_from_to ? std::to_string(summary.weights[edge++]) : "none";
-    std::printf("%s,%s,%s,%s\n",
-                paths[pair.from].c_str(),
-                paths[pair.to].c_str(),
-                quatro::StatusName(pair.verdict.status),
-                weight.c_str());
+    std::fprintf(out,
+                 "%s,%s,%s,%s\n",
+                 paths[pair.from].c_str(),
+                 paths[pair.to].c_str(),
+                 quatro::StatusName(pair.verdict.status),
+                 weight.c_str());
   }
-  std::printf("%s\n", summary.report.c_str());
+  std::fprintf(out, "%s\n", summary.report.c_str());
   if (!summary.is_usable) return quatro::kExitNotVouchedFor;
   if (!FLAGS_output.empty() &&
       !quatro::WriteOutputs({{FLAGS_output, quatro::FormatG2o(*graph)}},

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "experiments/base/number_text.h"
+#include "experiments/base/outputs.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
 #include "experiments/programs/progress_line.h"
 #include "experiments/runner/stop_signal.h"
@@ -249,18 +251,21 @@ int Main(int argc, char** argv) {
           quatro::ParseFlags(kUsage, "simulate_main", argc, argv)) {
     return *exit_code;
   }
-  if (FLAGS_output.empty())
-    return Fail("--output is empty, must name a folder");
   std::string error;
+  if (!quatro::CanBeFolder({"output", FLAGS_output}, &error)) {
+    return Fail(error);
+  }
   if (!IsProtocolValid(&error)) return Fail(error);
   if (FLAGS_protocol == "pairs") {
     const auto set = SetOfFlags();
-    if (!set) return Fail("--world=" + FLAGS_world + " is not a world");
-    return WriteSets({*set});
+    if (set) return WriteSets({*set});
+    std::string all;
+    for (const std::string& name : quatro::WorldNames()) all += " " + name;
+    return Fail(quatro::FlagProblem("world", FLAGS_world, "one of" + all));
   }
   if (FLAGS_protocol == "calibration") {
     if (!(FLAGS_scale > 0.0 && FLAGS_scale <= 100.0)) {
-      return Fail("--scale must be in (0, 100]");
+      return Fail(quatro::FlagProblem("scale", FLAGS_scale, "in (0, 100]"));
     }
     return WriteSets(quatro::CalibrationSets(FLAGS_seed, FLAGS_scale));
   }

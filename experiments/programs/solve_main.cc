@@ -9,20 +9,23 @@
 #include <vector>
 
 #include "experiments/base/outputs.h"
+#include "experiments/programs/bound_flags.h"
 #include "experiments/programs/explain.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/ins_flags.h"
 #include "experiments/programs/json_report.h"
 #include "experiments/programs/matches_csv.h"
 #include "experiments/programs/methods.h"
 #include "experiments/programs/picture.h"
 #include "experiments/programs/program.h"
-#include "robust/registration/presets.h"
+#include "robust/estimators/bound_solver.h"
 #include "robust/verdict/summary_covariance.h"
 #include "robust/verdict/verdict.h"
 
 DEFINE_string(correspondences,
               "",
-              "CSV file of matched points, sx,sy,sz,tx,ty,tz [m] a line");
+              "CSV file of matched points, sx,sy,sz,tx,ty,tz [m] a line; "
+              "-: standard input");
 DEFINE_string(preset, "kitti", "kitti, paper, reference or indoor");
 DEFINE_string(method, "auto", "Method; see --list_methods");
 DEFINE_bool(list_methods, false, "List the methods and exit");
@@ -45,19 +48,29 @@ DEFINE_string(target_rpy_deg,
 DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
-DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
+DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
+DEFINE_string(guess,
+              "",
+              "A prior on target_from_source: x,y,z,yaw_deg, or a text file of "
+              "4, 12 or 16 numbers (the rows of a matrix); empty: no motion");
+DEFINE_double(max_translation,
+              0.0,
+              "Largest distance from the guess [m]; 0: any");
+DEFINE_double(max_yaw_deg, 180.0, "Largest yaw from the guess [deg]; 180: any");
+DEFINE_double(
+    max_tilt_deg,
+    5.0,
+    "Largest tilt from the guess [deg], with one of the bounds above");
 DEFINE_bool(crosscheck,
             false,
             "Solve every weighted subproblem by Ceres too and report the "
             "largest difference");
 DEFINE_double(noise_bound,
               0.0,
-              "Largest error of an inlier [m]; 0: the preset's");
-DEFINE_uint64(seed, 0, "Random seed");
-DEFINE_int32(threads,
-             0,
-             "Threads; 0: one per core. Does not affect the result");
-DEFINE_string(json, "", "File for the answer; empty: standard output");
+              "How far a right match may be off [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Of all that is drawn at random");
+DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+DEFINE_string(json, "", "File for the answer; empty or -: standard output");
 DEFINE_bool(explain,
             false,
             "Print what came of each stage in plain words, in place of the "
@@ -75,6 +88,17 @@ std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
                                error);
 }
 
+// For a method that starts from the guess, `is_local`.
+std::optional<quatro::PoseBounds> BoundsFromFlags(bool is_local,
+                                                  std::string* error) {
+  return quatro::ParseBoundFlags({FLAGS_guess,
+                                  FLAGS_max_translation,
+                                  FLAGS_max_yaw_deg,
+                                  FLAGS_max_tilt_deg},
+                                 is_local,
+                                 error);
+}
+
 constexpr char kUsage[] =
     "finds the pose between matched points, mostly outliers.\n"
     "\n"
@@ -88,12 +112,8 @@ constexpr char kUsage[] =
 
 std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     std::string* error) {
-  auto options = quatro::MakePreset(FLAGS_preset);
-  if (!options) {
-    *error = "--preset=" + FLAGS_preset + ", must be one of";
-    for (const std::string& name : quatro::PresetNames()) *error += " " + name;
-    return std::nullopt;
-  }
+  auto options = quatro::FindPreset(FLAGS_preset, error);
+  if (!options) return std::nullopt;
   if (FLAGS_noise_bound != 0.0) {
     options->noise_bound = FLAGS_noise_bound;
   }
@@ -127,7 +147,14 @@ int Main(int argc, char** argv) {
     return Fail("--correspondences is empty, must name a CSV file");
   }
   if (!quatro::CanWriteAll(
-          {FLAGS_json, FLAGS_picture}, {FLAGS_correspondences}, &error)) {
+          {{"json", quatro::JsonPath(FLAGS_json, FLAGS_explain)},
+           {"explain", FLAGS_explain ? "-" : ""},
+           {"picture", FLAGS_picture}},
+          {FLAGS_correspondences},
+          &error)) {
+    return Fail(error);
+  }
+  if (!quatro::HasEnding({"picture", FLAGS_picture}, ".png", &error)) {
     return Fail(error);
   }
   if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
@@ -138,13 +165,20 @@ int Main(int argc, char** argv) {
   const auto ins = InsFromFlags(&error);
   if (!ins) return Fail(error);
   const quatro::PoseSolver solver =
-      quatro::MakeSolver(FLAGS_method, options->quatro, *ins, &error);
+      quatro::MakeLevelSolver(FLAGS_method, options->quatro, *ins, &error);
   if (!solver) return Fail(error);
+  const auto bounds = BoundsFromFlags(/*is_local=*/false, &error);
+  if (!bounds) return Fail(error);
   const auto matches = quatro::ReadMatches(FLAGS_correspondences, &error);
   if (!matches) return Fail(error);
 
   quatro::Stopwatch stopwatch;
-  quatro::PoseSummary summary = solver(matches->source, matches->target);
+  quatro::PoseSummary summary = quatro::SolveWithin(matches->source,
+                                                    matches->target,
+                                                    solver,
+                                                    options->quatro.noise_bound,
+                                                    *ins,
+                                                    *bounds);
   quatro::AddCovariance(matches->source,
                         matches->target,
                         options->noise_bound,
@@ -155,6 +189,7 @@ int Main(int argc, char** argv) {
   verdict_options.rival.seed = FLAGS_seed;
   verdict_options.rival.num_threads = FLAGS_threads;
   verdict_options.rival.up_in_target = ins->up;
+  verdict_options.rival.bounds = quatro::WithVertical(*bounds, *ins);
   const quatro::Verdict verdict = quatro::Judge(matches->source,
                                                 matches->target,
                                                 summary,
@@ -168,6 +203,7 @@ int Main(int argc, char** argv) {
                           {"preset", FLAGS_preset}};
   report["parameters"].update(quatro::DescribeOptions(options->quatro));
   report["parameters"].update(quatro::DescribeOptions(*ins));
+  report["parameters"].update(quatro::DescribeOptions(*bounds));
   report["version"] = quatro::Version();
   std::fprintf(stderr,
                "%s: %s\n",
@@ -189,9 +225,8 @@ int Main(int argc, char** argv) {
     if (!picture) return Fail(error);
     files.push_back({FLAGS_picture, *picture});
   }
-  if (!FLAGS_explain || !FLAGS_json.empty()) {
-    files.push_back({FLAGS_json, report.dump(2) + "\n"});
-  }
+  const std::string json_path = quatro::JsonPath(FLAGS_json, FLAGS_explain);
+  if (!json_path.empty()) files.push_back({json_path, report.dump(2) + "\n"});
   if (FLAGS_explain) files.push_back({"", quatro::Explain(report)});
   if (!quatro::WriteOutputs(files, &error)) return Fail(error);
   return verdict.IsRegistered() ? quatro::kExitDone

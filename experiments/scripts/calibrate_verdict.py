@@ -22,12 +22,13 @@ is the shipped one.
 Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
 import collections
+import contextlib
 import hashlib
 
 import numpy as np
 
 from script_support import (BadInput, Parser, check_picture, read_rows, run_script,
-                            save_picture)
+                            save_picture, summary_stream)
 
 Case = collections.namedtuple("Case", "set is_right features probability status is_reported")
 COLUMNS = ("set", "source", "target", "status", "success_2m_10deg", "probability", "features")
@@ -139,21 +140,8 @@ def draw(path, models):
     save_picture(figure, path, dpi=120)
 
 
-def main(args):
-    parser = Parser(__doc__)
-    parser.add_argument("results", metavar="RESULTS.csv", nargs="+", help="of run_pairs.py")
-    parser.add_argument("--picture", metavar="FILE.png", help="file for the two diagrams")
-    parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_twin,symmetric_apart",
-                        metavar="SET,SET", help="of places that have a twin, which matches alone "
-                        "cannot tell: left out of their model (default: %(default)s)")
-    parser.add_argument("--alike", default="corridor_floor,hall_floor", metavar="SET,SET",
-                        help="of different places that are built alike, where a pose does fit: "
-                        "left out, and told apart (default: %(default)s)")
-    parser.add_argument("--threshold", type=float, default=0.8, metavar="P",
-                        help="registered from this probability on (default: 0.8)")
-    options = parser.parse_args(args)
-    if options.picture:
-        check_picture(options.picture, options.results)
+def report_all(options):
+    """Prints it. Title, truth and probability of each model, for the picture."""
     cases = read_cases(options.results)
     answered = [case for case in cases if case.features]
     print(f"{len(cases)} pairs, {len(answered)} with an answer, "
@@ -191,6 +179,26 @@ def main(args):
     y = np.array([case.is_right for case in answered], float)
     p = np.array([case.probability for case in answered])
     report("\nas the program told, all pairs", y, p, options.threshold)
+    return models
+
+
+def main(args):
+    parser = Parser(__doc__)
+    parser.add_argument("results", metavar="RESULTS.csv", nargs="+", help="of run_pairs.py")
+    parser.add_argument("--picture", metavar="FILE.png", help="file for the two diagrams")
+    parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_twin,symmetric_apart",
+                        metavar="SET,SET", help="of places that have a twin, which matches alone "
+                        "cannot tell: left out of their model (default: %(default)s)")
+    parser.add_argument("--alike", default="corridor_floor,hall_floor", metavar="SET,SET",
+                        help="of different places that are built alike, where a pose does fit: "
+                        "left out, and told apart (default: %(default)s)")
+    parser.add_argument("--threshold", type=float, default=0.8, metavar="P",
+                        help="registered from this probability on (default: 0.8)")
+    options = parser.parse_args(args)
+    if options.picture:
+        check_picture(options.picture, options.results)
+    with contextlib.redirect_stdout(summary_stream(options.picture)):
+        models = report_all(options)
     if options.picture:
         draw(options.picture, models)
 

@@ -31,7 +31,7 @@ import sys
 import tempfile
 
 from run_pairs import DEFAULT_PROGRAM, check_program, read_pairs
-from script_support import BadInput, Parser, reason, run_script, split_flags
+from script_support import BadInput, Parser, Progress, reason, run_script, split_flags
 
 BINS = (0.0, 2.5, 7.5, 12.5, 17.5, 25.0, 40.0)  # [m]
 MAX_ERROR = 0.6  # Of an inlier [m].
@@ -178,10 +178,10 @@ def measure(pair, program, flags):
 
 def summarize(pairs, name, program, flags):
     by_bin = collections.defaultdict(list)
+    progress = Progress(writes_over=True)
     for i, pair in enumerate(pairs, 1):
         by_bin[bin_of(math.hypot(*pair.pose[1]))].append(measure(pair, program, flags))
-        print(f"\r{name}: {i}/{len(pairs)} ", end="", file=sys.stderr, flush=True)
-    print(file=sys.stderr)
+        progress(f"{name}: {i}/{len(pairs)} ", i == len(pairs))
     return by_bin
 
 

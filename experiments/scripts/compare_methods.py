@@ -34,8 +34,8 @@ import subprocess
 import sys
 
 import run_pairs
-from script_support import (BadInput, Parser, check_writable, parse_number, read_rows, reason,
-                            run_script, split_flags, write_atomically)
+from script_support import (BadInput, Parser, check_folder, check_writable, parse_number,
+                            read_rows, reason, run_script, split_flags, write_atomically)
 
 FRONT_END = ("voxels", "features", "matching")
 MAX_DEVIATION = 1e-3  # Of R^T R from the identity, per element.
@@ -202,6 +202,7 @@ def main(args):
     outside = [(name, read_outside(path, known))
                for name, path in map(parse_outside, options.outside)]
     if options.output:
+        check_folder(options.output)
         try:
             os.makedirs(options.output, exist_ok=True)
         except OSError as error:

@@ -29,8 +29,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from script_support import (BadInput, Parser, parse_number, read_rows, reason, run_script,
-                            save_picture)
+from script_support import (BadInput, Parser, check_folder, parse_number, read_rows, reason,
+                            run_script, save_picture)
 
 TEXT = ("pair", "set", "bin", "method", "status", "stages_ms")
 NUMBERS = ("distance_m", "true_yaw_deg", "true_tilt_deg", "rotation_error_deg",
@@ -413,6 +413,7 @@ def main(args):
     for result in results:
         result["succeeds"] = succeeds(result, limit)
     folder = options.output or os.path.join(options.run, "figures")
+    check_folder(folder)
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:

@@ -90,7 +90,7 @@ def draw(data, picture):
         finish(after, "after", low, high, data["origin"])
     else:
         finish(after, "no answer", low, high, data["origin"])
-    figure.savefig(picture, dpi=100, format="png")
+    figure.savefig(sys.stdout.buffer if picture == "-" else picture, dpi=100, format="png")
 
 
 def main(arguments):

@@ -31,8 +31,8 @@ import statistics
 import sys
 
 import run_pairs
-from script_support import (BadInput, Parser, check_writable, parse_number, read_rows, run_script,
-                            split_flags, write_atomically)
+from script_support import (BadInput, Parser, Progress, check_writable, parse_number, read_rows,
+                            run_script, split_flags, summary_stream, write_atomically)
 
 MODES = ("none", "relative", "leveled", "fused")
 RUNS = tuple((mode, polish) for mode in MODES for polish in ("off", "on"))
@@ -127,6 +127,7 @@ def tabulate(pairs, ins, folder, program, flags, num_jobs):
     """A row of errors per pair, in the order of ERRORS; None if there is no answer."""
     rows = [[None] * len(ERRORS) for _ in pairs]
     tasks = []
+    progress = Progress()
     for row, pair in zip(rows, pairs):
         source, target, _ = attitudes = ins[pair.source, pair.target]
         rotation = multiply(transpose(rotation_from_rpy(target)), rotation_from_rpy(source))
@@ -143,8 +144,9 @@ def tabulate(pairs, ins, folder, program, flags, num_jobs):
                 matrix = future.result()["target_from_source"]
                 if matrix is not None:
                     row[column] = run_pairs.angle_between_deg(pair.pose[0], matrix)
-                print(f"{num_done}/{len(tasks)} {pair.source} -> {pair.target}: "
-                      f"{HEADER[column + 1]}, {cell(row[column])} deg", file=sys.stderr, flush=True)
+                progress(f"{num_done}/{len(tasks)} {pair.source} -> {pair.target}: "
+                         f"{HEADER[column + 1]}, {cell(row[column])} deg",
+                         num_done == len(tasks))
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
@@ -218,7 +220,7 @@ def main(args):
                     int(options.jobs))
     if options.output:
         write_atomically(options.output, format_csv(pairs, rows))
-    sys.stdout.write(format_table(pairs, rows))
+    summary_stream(options.output).write(format_table(pairs, rows))
 
 
 if __name__ == "__main__":

@@ -18,7 +18,8 @@ import itertools
 import pathlib
 
 from run_pairs import read_pairs, scans_of
-from script_support import BadInput, Parser, check_writable, run_script, write_atomically
+from script_support import (BadInput, Parser, check_writable, run_script, summary_stream,
+                            write_atomically)
 
 
 def find_places(pairs, same):
@@ -80,7 +81,8 @@ def main(args):
             source, target = scans[k * len(scans) // num_listed]
             writer.writerow(("different places", folder / source, folder / target))
     write_atomically(options.output, text.getvalue())
-    print(f"{len(places)} places, {text.getvalue().count(chr(10)) - 1} pairs")
+    print(f"{len(places)} places, {text.getvalue().count(chr(10)) - 1} pairs",
+          file=summary_stream(options.output))
 
 
 if __name__ == "__main__":

@@ -37,8 +37,8 @@ import sys
 import tempfile
 import time
 
-from script_support import (BadInput, Parser, check_writable, parse_number, read_rows, run_script,
-                            split_flags, write_atomically)
+from script_support import (BadInput, Parser, Progress, check_writable, parse_number, read_rows,
+                            run_script, split_flags, summary_stream, write_atomically)
 
 POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
 COUNTS = ("source_voxels", "target_voxels", "matches", "consistent", "rotation_inliers",
@@ -263,6 +263,7 @@ class Done:
 
 def run_all(pairs, folder, program, flags, num_jobs, done):
     start = time.monotonic()
+    progress = Progress()
     left_over = [i for i in range(len(pairs)) if i not in done.results]
     with concurrent.futures.ThreadPoolExecutor(num_jobs) as pool:
         futures = {pool.submit(register, pairs[i], folder, program, flags): i for i in left_over}
@@ -275,9 +276,9 @@ def run_all(pairs, folder, program, flags, num_jobs, done):
                 left = round(elapsed / num_done * (len(left_over) - num_done))
                 errors = (f", {result['translation_error_m']} m {result['rotation_error_deg']} deg"
                           if result["translation_error_m"] else "")
-                print(f"{len(done.results)}/{len(pairs)} {result['source']} -> {result['target']}: "
-                      f"{result['status']}{errors}; {left // 60}:{left % 60:02d} left",
-                      file=sys.stderr, flush=True)
+                progress(f"{len(done.results)}/{len(pairs)} {result['source']} -> "
+                         f"{result['target']}: {result['status']}{errors}; "
+                         f"{left // 60}:{left % 60:02d} left", num_done == len(left_over))
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
@@ -331,7 +332,7 @@ def scans_of(pairs, path):
 def parse_args(args):
     parser = Parser(__doc__, usage="run_pairs.py --pairs=FILE [options] [-- FLAGS OF quatro_register]")
     parser.add_argument("--pairs", metavar="FILE.csv", required=True, help="the list of pairs")
-    parser.add_argument("--output", metavar="FILE.csv", help="file for one line per pair")
+    parser.add_argument("--output", metavar="FILE.csv", help="file for one line per pair; -: standard output")
     parser.add_argument("--program", default=str(DEFAULT_PROGRAM), metavar="FILE",
                         help="quatro_register (default: that in build/bin)")
     parser.add_argument("--exclude", action="append", default=[], metavar="SET",
@@ -347,13 +348,16 @@ def parse_args(args):
 
 def main(args):
     options, flags = parse_args(args)
-    part = options.output and options.output + ".part"
+    is_file = options.output and options.output != "-"
+    part = options.output + ".part" if is_file else None
     if options.output:
         check_writable(options.output, [options.pairs, options.program])
+    if part:
         check_writable(part, [options.pairs, options.program])
     pairs = read_pairs(options.pairs, options.exclude)
     if options.output:
         check_writable(options.output, scans_of(pairs, options.pairs))
+    if part:
         check_writable(part, scans_of(pairs, options.pairs))
     check_program(options.program)
     run = describe_run(options.pairs, options.exclude, options.program, flags)
@@ -363,7 +367,7 @@ def main(args):
         if options.output:
             write_atomically(options.output, format_results(results))
             done.remove()
-    sys.stdout.write(format_summary(results))
+    summary_stream(options.output).write(format_summary(results))
 
 
 if __name__ == "__main__":

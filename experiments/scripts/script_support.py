@@ -12,6 +12,7 @@ import math
 import os
 import sys
 import tempfile
+import time
 
 
 class BadInput(Exception):
@@ -74,8 +75,35 @@ def read_rows(path, columns=()):
     return [(line, dict(zip(names, cells))) for line, cells in lines[1:]], names
 
 
+class Progress:
+    """What is done, on standard error. On a terminal every text is printed, over the one
+    before it or on a line of its own; elsewhere a line every ten seconds at most, and the
+    last."""
+    SECONDS_BETWEEN_LINES = 10.0
+
+    def __init__(self, writes_over=False, file=None, clock=time.monotonic):
+        self.file = file or sys.stderr
+        self.is_terminal = self.file.isatty()
+        self.writes_over = writes_over and self.is_terminal
+        self.clock = clock
+        self.last_printed = clock()
+
+    def __call__(self, text, is_last):
+        now = self.clock()
+        if not (self.is_terminal or is_last or
+                now - self.last_printed >= self.SECONDS_BETWEEN_LINES):
+            return
+        self.last_printed = now
+        self.file.write(("\r" if self.writes_over else "") + text +
+                        ("" if self.writes_over and not is_last else "\n"))
+        self.file.flush()
+
+
 def check_writable(path, inputs=()):
-    """Checks an output before the work starts; it must not overwrite an input."""
+    """Before the work that is to be written; never over what it is made of. "-" is standard
+    output, "./-" a file."""
+    if path == "-":
+        return
     if os.path.isdir(path):
         raise BadInput(f"{path}: is a directory, must be a file to write")
     folder = os.path.dirname(path) or "."
@@ -83,8 +111,13 @@ def check_writable(path, inputs=()):
         raise BadInput(f"{path}: there is no folder {folder}")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise BadInput(f"{path}: may not write into folder {folder}")
-    if os.path.realpath(path) in map(os.path.realpath, inputs):
-        raise BadInput(f"{path}: would be overwritten, but is an input; choose another file")
+    if os.path.realpath(path) in [os.path.realpath(name) for name in inputs if name != "-"]:
+        raise BadInput(f"{path}: would be overwritten, but is read here; name another file")
+
+
+def check_folder(path):
+    if path == "-":
+        raise BadInput("--output=-: a folder cannot go to standard output; ./- is one named -")
 
 
 def check_picture(path, inputs):
@@ -94,6 +127,8 @@ def check_picture(path, inputs):
     except ImportError:
         raise BadInput(f"{path}: this Python has no Matplotlib; run by with_python.sh "
                        "matplotlib") from None
+    if path == "-":
+        return
     endings = FigureCanvasBase.get_supported_filetypes()
     if os.path.splitext(path)[1][1:].lower() not in endings:
         raise BadInput(f"{path}: a picture's name must end with one of .{' .'.join(endings)}")
@@ -101,13 +136,19 @@ def check_picture(path, inputs):
 
 def save_picture(figure, path, **options):
     picture = io.BytesIO()
-    figure.savefig(picture, format=os.path.splitext(path)[1][1:].lower(), **options)
+    ending = "png" if path == "-" else os.path.splitext(path)[1][1:].lower()
+    figure.savefig(picture, format=ending, **options)
     write_atomically(path, picture.getvalue())
 
 
 def write_atomically(path, content):
-    """Writes text or bytes."""
+    """Text or bytes. "-" is standard output."""
     data = content.encode() if isinstance(content, str) else content
+    if path == "-":
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+        return
     try:
         descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path) or ".",
                                                  prefix=os.path.basename(path) + ".tmp.")
@@ -121,6 +162,12 @@ def write_atomically(path, content):
             raise
     except OSError as error:
         raise BadInput(f"{path}: {reason(error)}") from None
+
+
+def summary_stream(*outputs):
+    """Where a script prints what it found: standard error if an output goes to standard
+    output, which is then this output alone."""
+    return sys.stderr if "-" in outputs else sys.stdout
 
 
 def run_script(main):

@@ -22,7 +22,8 @@ import re
 import statistics
 import sys
 
-from script_support import BadInput, Parser, check_picture, reason, run_script, save_picture
+from script_support import (BadInput, Parser, check_picture, reason, run_script, save_picture,
+                            summary_stream)
 
 OURS, LIMIT = "quatro", "limit"
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
@@ -220,9 +221,10 @@ def main(args):
     table = format_table(make_table(rows))
     if options.picture:
         draw(rows, options.picture)
-    sys.stdout.write(table)
+    out = summary_stream(options.picture)
+    out.write(table)
     if context:
-        sys.stdout.write(f"\n{describe(context)}\n")
+        out.write(f"\n{describe(context)}\n")
 
 
 if __name__ == "__main__":

@@ -114,27 +114,31 @@ std::optional<std::string> ReadWholeFile(const std::string& path,
   return bytes;
 }
 
-std::optional<std::string> ReadTextFile(const std::string& path,
-                                        std::string* error) {
-  const auto bytes = ReadWholeFile(path, error);
-  if (!bytes) return std::nullopt;
-  const std::string_view foreign = DescribeForeignFile(*bytes);
+std::optional<std::string> AsText(std::string_view bytes,
+                                  const std::string& name,
+                                  std::string* error) {
+  const std::string_view foreign = DescribeForeignFile(bytes);
   if (!foreign.empty()) {
-    *error = path + ": " + std::string(foreign);
+    *error = name + ": " + std::string(foreign);
     return std::nullopt;
   }
-  std::string_view rest = *bytes;
-  SkipByteOrderMark(&rest);
+  const char* const end = bytes.data() + bytes.size();
+  SkipByteOrderMark(&bytes);
   std::string text;
-  text.reserve(rest.size());
-  while (!rest.empty()) {
-    const std::string_view line = TakeLine(&rest);
-    const bool has_end =
-        line.data() + line.size() < bytes->data() + bytes->size();
+  text.reserve(bytes.size());
+  while (!bytes.empty()) {
+    const std::string_view line = TakeLine(&bytes);
+    const bool has_end = line.data() + line.size() < end;
     text.append(line);
     if (has_end) text += '\n';
   }
   return text;
+}
+
+std::optional<std::string> ReadTextFile(const std::string& path,
+                                        std::string* error) {
+  const auto bytes = ReadWholeFile(path, error);
+  return bytes ? AsText(*bytes, path, error) : std::nullopt;
 }
 
 std::unique_ptr<PendingFile> PendingFile::Write(const std::string& path,

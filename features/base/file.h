@@ -17,13 +17,21 @@ namespace quatro {
 std::optional<std::string> ReadWholeFile(const std::string& path,
                                          std::string* error);
 
-// As ReadWholeFile(), for text: without a byte order mark, every line's end,
-// LF, CR LF or CR, as LF. Refuses what is no such text at all (foreign_file.h).
+// The bytes as text: without a byte order mark, and with LF at the end of each
+// line in place of LF, CR LF or CR. Returns nullopt and sets *error for bytes
+// that are not such text (features/base/foreign_file.h); `name` is that of the
+// file.
+std::optional<std::string> AsText(std::string_view bytes,
+                                  const std::string& name,
+                                  std::string* error);
+
+// ReadWholeFile() as text.
 std::optional<std::string> ReadTextFile(const std::string& path,
                                         std::string* error);
 
-// `path`.tmp.<process>.<number>, flushed to the disk; removed with this object
-// unless it was renamed to `path`.
+// A temporary file next to `path`, named `path`.tmp.<process>.<number> and
+// flushed to the disk. It is removed with this object unless it was renamed to
+// `path`.
 class PendingFile {
  public:
   // Returns nullptr and sets *error if the file cannot be written.

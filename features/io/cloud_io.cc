@@ -127,14 +127,14 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
   return cloud;
 }
 
-bool WriteCloud(const PointCloud& cloud,
-                const std::string& path,
-                std::string* error) {
+std::optional<std::string> FormatCloud(const PointCloud& cloud,
+                                       const std::string& path,
+                                       std::string* error) {
   const std::string ending = Ending(path);
   if (ending != ".bin" && ending != ".ply" && ending != ".pcd") {
     *error =
         path + ": ending " + Quoted(ending) + ": is not .bin, .ply or .pcd";
-    return false;
+    return std::nullopt;
   }
   std::string reason;
   std::optional<std::string> bytes;
@@ -143,11 +143,15 @@ bool WriteCloud(const PointCloud& cloud,
             : ending == ".pcd" ? FormatPcd(cloud, &reason)
                                : FormatPly(cloud);
   }
-  if (!bytes) {
-    *error = path + ": " + reason;
-    return false;
-  }
-  return WriteFileAtomically(path, *bytes, error);
+  if (!bytes) *error = path + ": " + reason;
+  return bytes;
+}
+
+bool WriteCloud(const PointCloud& cloud,
+                const std::string& path,
+                std::string* error) {
+  const auto bytes = FormatCloud(cloud, path, error);
+  return bytes && WriteFileAtomically(path, *bytes, error);
 }
 
 }  // namespace quatro

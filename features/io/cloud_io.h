@@ -46,6 +46,12 @@ bool WriteCloud(const PointCloud& cloud,
                 const std::string& path,
                 std::string* error);
 
+// The bytes that WriteCloud() would write there; nullopt with *error set if it
+// could not.
+std::optional<std::string> FormatCloud(const PointCloud& cloud,
+                                       const std::string& path,
+                                       std::string* error);
+
 }  // namespace quatro
 
 #endif  // QUATRO_FEATURES_IO_CLOUD_IO_H_

@@ -8,7 +8,7 @@
     answer = quatro.register(scan, other, preset='kitti')
     print(answer)
     if answer.is_registered:
-        moved = scan @ answer.target_from_source[:3, :3].T + answer.target_from_source[:3, 3]
+        moved = answer.transform(scan)
 
 Units are meters, radians and seconds. Use register() for clouds, solve() for your own
 matched points, and align() to refine a pose that is nearly correct.

@@ -11,6 +11,7 @@
 #include "features/base/stopwatch.h"
 #include "features/described_cloud.h"
 #include "features/voxel_grid.h"
+#include "robust/estimators/bound_solver.h"
 #include "robust/registration/refinement.h"
 #include "solvers/local/gicp.h"
 
@@ -144,6 +145,14 @@ RegistrationSummary RegisterBy(const PointCloud& source,
   summary.refinement = std::move(refinement);
   finish_stage("alignment");
   summary.verdict = JudgeAlignment(summary.refinement->alignment);
+  PoseBounds bounds = options.bounds;
+  bounds.up = options.ins.up;
+  if (summary.solution.IsUsable() &&
+      !bounds.Contain(*summary.solution.target_from_source, 0.0)) {
+    RefuseOutside(bounds, 0.0, &summary.solution);
+    summary.verdict.status = Status::kInsufficient;
+    summary.verdict.reason = summary.solution.message;
+  }
   summary.total_seconds = total.Lap();
   return summary;
 }

@@ -25,7 +25,8 @@ namespace quatro {
 
 // By options.refinement, whose method must not be kNone, on voxel means of
 // options.front_end.voxel_size. The pose found is summary.refinement's and
-// summary.solution's; there are no matches.
+// summary.solution's; there are no matches. A pose outside of options.bounds is
+// no answer.
 RegistrationSummary RegisterLocally(const PointCloud& source,
                                     const PointCloud& target,
                                     const Rigid3& initial_target_from_source,

@@ -71,6 +71,9 @@ bool RegistrationOptions::IsValid(std::string* error) const {
   } else if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
     problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
   }
+  if (verdict.rival.bounds.IsActive() || evidence.rival.bounds.IsActive()) {
+    problem << "rival.bounds are set, set bounds of the registration instead";
+  }
   *error = problem.str();
   return error->empty() && SharesValues(*this, error) &&
          front_end.IsValid(error) && quatro.IsValid(error) &&

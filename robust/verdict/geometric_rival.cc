@@ -103,9 +103,12 @@ class Comparison {
   std::array<int, 2> pose_in_range_{};
 };
 
-bool IsRival(const Move& move, double min_shift) {
-  return std::abs(move.yaw) > kMinTurn ||
-         move.shift.head<2>().norm() > min_shift;
+bool IsRival(const Comparison& comparison,
+             const Move& move,
+             const GeometricRivalOptions& options) {
+  return (std::abs(move.yaw) > kMinTurn ||
+          move.shift.head<2>().norm() > options.min_shift) &&
+         options.bounds.Contain(comparison.Moved(move), 0.0);
 }
 
 // The best shift on a grid, and on a finer line along `direction`.
@@ -113,12 +116,14 @@ Move FindBestShift(Comparison& comparison,
                    double yaw,
                    double max_shift,
                    double step,
-                   double min_shift) {
+                   const GeometricRivalOptions& options) {
   Move best{yaw};
   comparison.Turn(yaw);
   const auto look = [&](double x, double y) {
     const Move move{yaw, {x, y, 0.0}};
-    if (std::hypot(x, y) > max_shift || !IsRival(move, min_shift)) return;
+    if (std::hypot(x, y) > max_shift || !IsRival(comparison, move, options)) {
+      return;
+    }
     const double overlap = comparison.Count(move.shift);
     if (overlap > best.overlap) best = {yaw, move.shift, overlap};
   };
@@ -130,8 +135,11 @@ Move FindBestShift(Comparison& comparison,
   return best;
 }
 
-// Coordinate ascent with steps that are halved each round.
-Move Refine(Comparison& comparison, Move best, double step, double min_shift) {
+// Uphill by halving steps, one parameter after the other.
+Move Refine(Comparison& comparison,
+            Move best,
+            double step,
+            const GeometricRivalOptions& options) {
   double yaw_step = 2.0 * kDegree;
   for (int round = 0; round < 3; ++round) {
     for (int parameter = 0; parameter < 4; ++parameter) {
@@ -142,7 +150,7 @@ Move Refine(Comparison& comparison, Move best, double step, double min_shift) {
         } else {
           move.yaw = std::remainder(move.yaw + sign * yaw_step, 2.0 * M_PI);
         }
-        if (!IsRival(move, min_shift)) continue;
+        if (!IsRival(comparison, move, options)) continue;
         move.overlap = comparison.Overlap(move);
         if (move.overlap > best.overlap) best = move;
       }
@@ -174,7 +182,7 @@ bool GeometricRivalOptions::IsValid(std::string* error) const {
             << ", must be >= 1";
   }
   *error = problem.str();
-  return error->empty();
+  return error->empty() && bounds.IsValid(error);
 }
 
 GeometricRival FindGeometricRival(const DescribedCloud& source,
@@ -225,9 +233,9 @@ GeometricRival FindGeometricRival(const DescribedCloud& source,
         kYaws[i] == 0.0 ? options.max_shift : options.max_turned_shift;
     Comparison turned = search;
     Move& best = best_of[i];
-    best = FindBestShift(turned, kYaws[i], max_shift, step, options.min_shift);
+    best = FindBestShift(turned, kYaws[i], max_shift, step, options);
     if (best.overlap < 0.0) return;
-    best = Refine(turned, best, 0.5 * step, options.min_shift);
+    best = Refine(turned, best, 0.5 * step, options);
     best.overlap = Comparison(comparison).Overlap(best);
   };
   ParallelFor(num_threads,

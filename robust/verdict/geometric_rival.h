@@ -23,6 +23,7 @@
 #include <string>
 
 #include "features/base/rigid3.h"
+#include "robust/estimators/pose_bounds.h"
 #include "robust/verdict/overlap.h"
 
 namespace quatro {
@@ -33,8 +34,10 @@ struct GeometricRivalOptions {
   double max_shift = 12.0;        // Without rotation [m].
   double max_turned_shift = 8.0;  // After a rotation [m].
 
-  // Structure points of each scan for the search, and for the comparison of the
-  // rival with the pose.
+  // A pose outside of them is no rival.
+  PoseBounds bounds;
+
+  // Structure points of each scan to look for the rival, and to compare it.
   Eigen::Index num_search_points = 300;
   Eigen::Index num_compared_points = 2000;
 

@@ -89,7 +89,7 @@ bool MatchRivalOptions::IsValid(std::string* error) const {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   }
   *error = problem.str();
-  return error->empty();
+  return error->empty() && bounds.IsValid(error);
 }
 
 std::optional<MatchRival> FindMatchRival(const PointsRef& source,
@@ -121,7 +121,9 @@ std::optional<MatchRival> FindMatchRival(const PointsRef& source,
 
   std::vector<Eigen::Index> far;
   for (Eigen::Index i = 0; i < moved.cols(); ++i) {
-    if ((target.col(i) - moved.col(i)).cwiseAbs().maxCoeff() <= min_shift) {
+    if ((target.col(i) - moved.col(i)).cwiseAbs().maxCoeff() <= min_shift ||
+        !options.bounds.CanBeInlier(
+            source.col(i), target.col(i), noise_bound)) {
       continue;
     }
     far.push_back(i);
@@ -145,6 +147,8 @@ std::optional<MatchRival> FindMatchRival(const PointsRef& source,
     }
     MatchRival rival;
     rival.target_from_source = turn * target_from_source;
+    if (!options.bounds.Contain(rival.target_from_source, noise_bound))
+      continue;
     rival.has_same_matches = has_same_matches && &turn == &turns.front();
     rival.num_inliers = static_cast<Eigen::Index>(
         FindInliers(source, target, rival.target_from_source, noise_bound)

@@ -29,6 +29,7 @@
 
 #include "features/base/rigid3.h"
 #include "features/base/types.h"
+#include "robust/estimators/pose_bounds.h"
 
 namespace quatro {
 
@@ -45,6 +46,9 @@ struct MatchRivalOptions {
   // is found if num_pairs * e^2 >= 50.
   Eigen::Index num_pairs = 200'000;
   Eigen::Index max_num_matches = 20'000;
+
+  // A pose outside of the bounds is not a rival.
+  PoseBounds bounds;
 
   std::uint64_t seed = 0;
   int num_threads = 1;  // 0: all cores. Never changes the answer.

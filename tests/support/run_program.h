@@ -39,10 +39,12 @@ inline std::string ReadFromStart(std::FILE* file) {
   return bytes;
 }
 
-// bin/<name> of the build. With `out_path` its output goes there.
+// bin/<name> of the build. With `out_path` its output goes there, and with
+// `in_path` its input is this file's.
 inline ProgramRun RunProgram(const std::string& name,
                              const std::vector<std::string>& args,
-                             const char* out_path = nullptr) {
+                             const char* out_path = nullptr,
+                             const char* in_path = nullptr) {
   std::vector<std::string> command = {std::string(QUATRO_BIN_DIR) + "/" + name};
   command.insert(command.end(), args.begin(), args.end());
   std::vector<char*> argv;
@@ -55,6 +57,7 @@ inline ProgramRun RunProgram(const std::string& name,
   ProgramRun run;
   const pid_t child = fork();
   if (child == 0) {
+    if (in_path != nullptr && !std::freopen(in_path, "r", stdin)) _exit(127);
     dup2(fileno(out), STDOUT_FILENO);
     dup2(fileno(err), STDERR_FILENO);
     execv(argv[0], argv.data());

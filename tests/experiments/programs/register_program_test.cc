@@ -399,6 +399,65 @@ TEST_F(RegisterProgramTest, LocalMethodsDoNotVouchForWhatTheyFind) {
   }
 }
 
+TEST_F(RegisterProgramTest, LocalMethodsStartFromTheGuess) {
+  WriteYard();
+  for (const std::string method : {"icp", "gicp"}) {
+    const ProgramRun run =
+        Register({"--method=" + method, "--guess=1.1,-0.6,0.1,107"});
+    const json report = json::parse(run.out);
+    ASSERT_FALSE(report["target_from_source"].is_null()) << run.err;
+    EXPECT_LT((PoseOf(report).ToMatrix() - TruePose().ToMatrix()).norm(), 0.1);
+    const ProgramRun bounded = Register(
+        {"--method=" + method, "--max_translation=0.1", "--max_yaw_deg=1"});
+    EXPECT_EQ(bounded.exit_code, 1);
+    EXPECT_TRUE(json::parse(bounded.out)["target_from_source"].is_null());
+  }
+}
+
+TEST_F(RegisterProgramTest, BoundsDecideWhereThePoseMayBe) {
+  WriteYard();
+  const std::vector<std::string> around = {
+      "--guess=1.1,-0.6,0.1,107", "--max_translation=1", "--max_yaw_deg=10"};
+  const ProgramRun near = Register(around);
+  EXPECT_EQ(near.exit_code, 0) << near.err;
+  EXPECT_LT(
+      (PoseOf(json::parse(near.out)).ToMatrix() - TruePose().ToMatrix()).norm(),
+      0.1);
+  const ProgramRun far = Register({"--max_yaw_deg=30"});
+  EXPECT_EQ(far.exit_code, 1);
+  EXPECT_NE(json::parse(far.out)["status"], "registered");
+}
+
+TEST_F(RegisterProgramTest, OutputIsTheSourceInTheTargetsFrame) {
+  WriteYard();
+  const ProgramRun run = Register({"--output=" + PathOf("aligned.ply")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  std::string error;
+  const auto source = ReadCloud(PathOf("source.ply"), &error);
+  const auto aligned = ReadCloud(PathOf("aligned.ply"), &error);
+  ASSERT_TRUE(source && aligned) << error;
+  EXPECT_TRUE(aligned->points.isApprox(
+      PoseOf(json::parse(run.out)).Apply(source->points), 1e-9));
+}
+
+TEST_F(RegisterProgramTest, NoPoseNoOutput) {
+  WritePoints("source.ply", Points::Ones(3, 1));
+  WritePoints("target.ply", Points::Ones(3, 1));
+  const ProgramRun run = Register({"--output=" + PathOf("aligned.ply")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err,
+              HasSubstr("aligned.ply: not written, because there is "
+                        "no pose"));
+  EXPECT_EQ(Contents().size(), 2u);
+}
+
+TEST_F(RegisterProgramTest, OutputsThatCannotBeAreRefused) {
+  ExpectRefusedFlag("--output=-", "--output=-", "name a .bin, .ply or .pcd");
+  ExpectRefusedFlag("--output=a.txt", "--output=a.txt", "'.txt'");
+  ExpectRefusedFlag("--output_clouds=both", "--output_clouds", "no effect");
+  ExpectRefusedFlag("--report=-", "--json and --report", "name a file");
+}
+
 TEST_F(RegisterProgramTest, ThreadsChangeNothing) {
   WriteYard();
   const std::string matches = "--correspondences_out=" + PathOf("matches.csv");

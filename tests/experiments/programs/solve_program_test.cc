@@ -385,6 +385,61 @@ TEST_F(SolveProgramTest, JsonGoesToAFileInstead) {
   EXPECT_EQ(Contents().size(), 2u);
 }
 
+TEST_F(SolveProgramTest, ADashIsStandardInputAndOutput) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(100, 10).matches);
+  const ProgramRun run = RunProgram("quatro_solve",
+                                    {"--correspondences=-", "--json=-"},
+                                    /*out_path=*/nullptr,
+                                    path.c_str());
+  json report = ReportOf(run);
+  EXPECT_EQ(report["parameters"]["correspondences"], "-");
+  report["parameters"]["correspondences"] = path;
+  json from_file = ReportOf(Solve(path));
+  report.erase("timings_ms");
+  from_file.erase("timings_ms");
+  EXPECT_EQ(report, from_file);
+  EXPECT_EQ(Contents().size(), 1u);
+}
+
+TEST_F(SolveProgramTest, StandardInputIsNamedInErrors) {
+  const std::string path = Write("a.csv", "1,2,3\n");
+  const ProgramRun run = RunProgram(
+      "quatro_solve", {"--correspondences=-"}, nullptr, path.c_str());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("standard input: line 1 has 3 columns"));
+}
+
+TEST_F(SolveProgramTest, TwoOutputsOnStandardOutputAreRefused) {
+  ExpectRefusedFlag("--picture=-", "--json and --picture", "name a file");
+}
+
+TEST_F(SolveProgramTest, BoundsAroundThePoseKeepIt) {
+  const Problem problem = MakeProblem(200, 3);
+  const std::string path = WriteMatches("a.csv", problem.matches);
+  const json report = ReportOf(Solve(
+      path, {"--guess=7,-4,0,110", "--max_translation=3", "--max_yaw_deg=20"}));
+  EXPECT_LT((PoseOf(report).ToMatrix() - problem.target_from_source.ToMatrix())
+                .norm(),
+            0.2);
+  EXPECT_EQ(report["parameters"]["guess"][0][3], 7.0);
+  EXPECT_EQ(report["parameters"]["max_translation"], 3.0);
+  EXPECT_EQ(report["parameters"]["max_yaw_deg"], 20.0);
+}
+
+TEST_F(SolveProgramTest, BoundsFarFromThePoseLeaveNoAnswer) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(200, 3).matches);
+  const json report =
+      ReportOf(Solve(path, {"--max_translation=2", "--max_yaw_deg=20"}));
+  EXPECT_EQ(report["status"], "insufficient");
+  EXPECT_THAT(report["reason"].get<std::string>(),
+              AnyOf(HasSubstr("within the bounds given"),
+                    HasSubstr("outside of the bounds given")));
+}
+
+TEST_F(SolveProgramTest, AGuessWithoutBoundsIsRefused) {
+  ExpectRefusedFlag("--guess=1,2,3,4", "--guess", "--max_translation");
+}
+
 TEST_F(SolveProgramTest, FlagsComeFromAFileToo) {
   const std::string path = WriteMatches("a.csv", MakeProblem(100, 11).matches);
   const std::string flags =

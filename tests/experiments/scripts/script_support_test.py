@@ -63,6 +63,42 @@ class ScriptSupportTest(unittest.TestCase):
             self.assertEqual(self.refused(support.parse_number, text, "line 2"),
                              f"line 2: {text!r} {problem}")
 
+    def test_a_dash_is_standard_output(self):
+        with tempfile.TemporaryFile("w+") as file:
+            with contextlib.redirect_stdout(file):
+                support.check_writable("-", ["-"])
+                support.write_atomically("-", "one\n")
+            file.seek(0)
+            self.assertEqual(file.read(), "one\n")
+        self.assertFalse(pathlib.Path("-").exists())
+        path = str(self.folder) + "/-"
+        support.write_atomically(path, "two")
+        self.assertEqual(pathlib.Path(path).read_text(), "two")
+        self.assertIs(support.summary_stream("-", None), sys.stderr)
+        self.assertIs(support.summary_stream(None, "./-"), sys.stdout)
+        self.assertIn("a folder cannot", self.refused(support.check_folder, "-"))
+
+    def progress(self, is_terminal, writes_over):
+        """What 100 steps of a second print."""
+        file = io.StringIO()
+        file.isatty = lambda: is_terminal
+        now = [0.0]
+        progress = support.Progress(writes_over, file, lambda: now[0])
+        for i in range(1, 102):
+            now[0] += 1.0
+            progress(f"{i}/101", i == 101)
+        return file.getvalue()
+
+    def test_a_log_gets_a_line_every_ten_seconds_and_the_last(self):
+        lines = "".join(f"{i}/101\n" for i in (*range(10, 101, 10), 101))
+        self.assertEqual(self.progress(False, True), lines)
+        self.assertEqual(self.progress(False, False), lines)
+
+    def test_a_terminal_gets_all(self):
+        texts = [f"{i}/101" for i in range(1, 102)]
+        self.assertEqual(self.progress(True, True), "\r" + "\r".join(texts) + "\n")
+        self.assertEqual(self.progress(True, False), "\n".join(texts) + "\n")
+
     def test_flags_behind_two_dashes_are_anothers(self):
         self.assertEqual(support.split_flags(["a", "--", "b", "--", "c"]), (["a"], ["b", "--", "c"]))
         self.assertEqual(support.split_flags(["a"]), (["a"], []))

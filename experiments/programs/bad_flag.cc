@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/programs/bad_flag.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace quatro {
+namespace {
+
+// Letters to insert, remove or replace that a misspelled name is off by.
+constexpr std::size_t kMaxMisspelled = 3;
+
+std::size_t EditDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+// Empty if none is near.
+std::string NearestFlag(const std::string& name) {
+  std::vector<gflags::CommandLineFlagInfo> flags;
+  gflags::GetAllFlags(&flags);
+  std::string nearest;
+  // A name of few letters is near to anything.
+  std::size_t least = std::min(kMaxMisspelled, name.size() / 2) + 1;
+  for (const gflags::CommandLineFlagInfo& flag : flags) {
+    const std::size_t distance = EditDistance(name, flag.name);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = flag.name;
+  }
+  return nearest;
+}
+
+// What a value of gflags' type is.
+std::string Describe(const std::string& type) {
+  if (type == "bool") return "true or false";
+  if (type == "double") return "a number";
+  if (type == "int32") return "a whole number from -2147483648 to 2147483647";
+  if (type == "uint64") {
+    return "a whole number from 0 to 18446744073709551615";
+  }
+  return "of type " + type;
+}
+
+// gflags' own flags have a meaning beyond their values.
+bool IsOfGflags(const gflags::CommandLineFlagInfo& flag) {
+  return flag.filename.find("gflags") != std::string::npos;
+}
+
+// Whether the flag's type holds the value.
+bool CanHold(const gflags::CommandLineFlagInfo& flag,
+             const std::string& value) {
+  return IsOfGflags(flag) ||
+         !gflags::SetCommandLineOption(flag.name.c_str(), value.c_str())
+              .empty();
+}
+
+}  // namespace
+
+std::optional<std::string> TellBadFlag(
+    const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const std::size_t begin = argument.find_first_not_of('-');
+    if (argument == "--") break;
+    if (begin == 0 || begin == std::string::npos) continue;
+    const std::size_t equals = argument.find('=');
+    const std::string name = argument.substr(begin, equals - begin);
+    if (name == "undefok") return std::nullopt;
+    gflags::CommandLineFlagInfo flag;
+    if (gflags::GetCommandLineFlagInfo(name.c_str(), &flag)) {
+      const bool is_alone = equals == std::string::npos;
+      if (is_alone && flag.type == "bool") continue;
+      // Its value may start with a dash.
+      if (is_alone && ++i == arguments.size()) break;
+      const std::string value =
+          is_alone ? arguments[i] : argument.substr(equals + 1);
+      if (CanHold(flag, value)) continue;
+      return "--" + name + "=" + value + ", must be " + Describe(flag.type);
+    }
+    if (name.starts_with("no") &&
+        gflags::GetCommandLineFlagInfo(name.c_str() + 2, &flag) &&
+        flag.type == "bool") {
+      continue;
+    }
+    const std::string nearest = NearestFlag(name);
+    return "--" + name + ": unknown flag" +
+           (nearest.empty() ? "" : ", did you mean --" + nearest) +
+           "; --help lists all";
+  }
+  return std::nullopt;
+}
+
+}  // namespace quatro

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/programs/bound_flags.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "experiments/base/number_text.h"
+#include "features/base/file.h"
+
+namespace quatro {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;  // [rad]
+
+// Digits that a text file may lack.
+constexpr double kMaxRotationError = 1e-3;
+
+constexpr char kExpected[] =
+    ", must be 4 numbers x,y,z,yaw_deg, or 12 or 16, the rows of "
+    "target_from_source";
+
+// The nearest rotation, or nullopt if the matrix is not nearly one.
+std::optional<Eigen::Matrix3d> NearestRotation(const Eigen::Matrix3d& matrix) {
+  if (!matrix.isUnitary(kMaxRotationError) || matrix.determinant() < 0.0) {
+    return std::nullopt;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+std::optional<Rigid3> PoseOfNumbers(const std::string& where,
+                                    const std::vector<double>& numbers,
+                                    std::string* error) {
+  Rigid3 pose;
+  if (numbers.size() == 4) {
+    pose.rotation = RotationZ(numbers[3] * kDegree);
+    pose.translation << numbers[0], numbers[1], numbers[2];
+    return pose;
+  }
+  if (numbers.size() != 12 && numbers.size() != 16) {
+    *error = where + " has " + std::to_string(numbers.size()) + " numbers" +
+             kExpected;
+    return std::nullopt;
+  }
+  const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(
+      numbers.data());
+  const auto rotation = NearestRotation(rows.leftCols<3>());
+  if (!rotation) {
+    *error = where +
+             ": columns 1 to 3 are no rotation; they must be orthonormal with "
+             "determinant 1, each row followed by x, y or z [m]";
+    return std::nullopt;
+  }
+  if (numbers.size() == 16 && (numbers[12] != 0.0 || numbers[13] != 0.0 ||
+                               numbers[14] != 0.0 || numbers[15] != 1.0)) {
+    *error = where + ": the last row must be 0 0 0 1";
+    return std::nullopt;
+  }
+  pose.rotation = *rotation;
+  pose.translation = rows.col(3);
+  return pose;
+}
+
+std::optional<Rigid3> ParseGuess(const std::string& guess, std::string* error) {
+  std::error_code ignored;
+  const std::string where = "--guess=" + guess;
+  std::string text = guess;
+  if (guess.find(',') == std::string::npos ||
+      std::filesystem::exists(guess, ignored)) {
+    const auto bytes = ReadWholeFile(guess, error);
+    if (!bytes) {
+      *error = "--guess: " + *error;
+      return std::nullopt;
+    }
+    text = *bytes;
+  }
+  std::vector<double> numbers;
+  for (const std::string_view field : SplitFields(text, ", \t\r\n[];")) {
+    const auto number = ParseFiniteNumber(field);
+    if (!number) {
+      *error = where + ": '" + std::string(field.substr(0, 40)) +
+               "' is not a finite number" + kExpected;
+      return std::nullopt;
+    }
+    numbers.push_back(*number);
+    if (numbers.size() > 16) break;
+  }
+  return PoseOfNumbers(where, numbers, error);
+}
+
+}  // namespace
+
+std::optional<PoseBounds> ParseBoundFlags(const BoundFlags& flags,
+                                          bool is_local,
+                                          std::string* error) {
+  PoseBounds bounds;
+  std::ostringstream problem;
+  if (!(flags.max_translation >= 0.0)) {
+    problem << "--max_translation=" << flags.max_translation
+            << ", must be >= 0 [m]; 0: any";
+  } else if (!(flags.max_yaw_deg >= 0.0 && flags.max_yaw_deg <= 180.0)) {
+    problem << "--max_yaw_deg=" << flags.max_yaw_deg
+            << ", must be in [0, 180]; 180: any";
+  } else if (!(flags.max_tilt_deg >= 0.0 && flags.max_tilt_deg <= 180.0)) {
+    problem << "--max_tilt_deg=" << flags.max_tilt_deg
+            << ", must be in [0, 180]";
+  }
+  *error = problem.str();
+  if (!error->empty()) return std::nullopt;
+  if (flags.max_translation > 0.0) {
+    bounds.max_translation = flags.max_translation;
+  }
+  if (flags.max_yaw_deg < 180.0) bounds.max_yaw = flags.max_yaw_deg * kDegree;
+  bounds.max_tilt = flags.max_tilt_deg * kDegree;
+  if (flags.guess.empty()) return bounds;
+  if (!bounds.IsActive() && !is_local) {
+    *error =
+        "--guess has no effect on this method without bounds about it; add "
+        "--max_translation [m] or --max_yaw_deg";
+    return std::nullopt;
+  }
+  const auto guess = ParseGuess(flags.guess, error);
+  if (!guess) return std::nullopt;
+  bounds.guess = *guess;
+  return bounds;
+}
+
+Json DescribeOptions(const PoseBounds& bounds) {
+  Json rows = Json::array();
+  const Eigen::Matrix4d matrix = bounds.guess.ToMatrix();
+  for (int i = 0; i < 4; ++i) {
+    rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2), matrix(i, 3)});
+  }
+  return {{"guess", rows},
+          {"max_translation",
+           std::isfinite(bounds.max_translation) ? Json(bounds.max_translation)
+                                                 : Json(nullptr)},
+          {"max_yaw_deg", bounds.max_yaw / kDegree},
+          {"max_tilt_deg", bounds.max_tilt / kDegree}};
+}
+
+}  // namespace quatro

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Any solver within bounds on the pose (robust/estimators/pose_bounds.h):
+//
+//   matches -> those that can be inliers within the bounds -> solver
+//           -> the pose, if the bounds contain it
+//
+// The filter is necessary, not sufficient: a consensus of matches that all pass
+// it may still be a pose outside of the bounds. It is then no answer, and no
+// other one is looked for.
+
+#ifndef QUATRO_ROBUST_ESTIMATORS_BOUND_SOLVER_H_
+#define QUATRO_ROBUST_ESTIMATORS_BOUND_SOLVER_H_
+
+#include "features/base/types.h"
+#include "robust/estimators/pose_bounds.h"
+#include "robust/estimators/pose_summary.h"
+
+namespace quatro {
+
+// Does nothing if the bounds contain the pose. Otherwise it removes the pose:
+// its termination is kInsufficient, and its message says by how much the pose
+// violates the bounds.
+void RefuseOutside(const PoseBounds& bounds,
+                   double noise_bound,
+                   PoseSummary* summary);
+
+// `solver` on the matches that satisfy (2); a pose that violates (1) is no
+// answer. Columns in the summary are those of all matches. The solver itself
+// if the bounds are not active.
+PoseSolver BoundSolver(PoseSolver solver,
+                       const PoseBounds& bounds,
+                       double noise_bound);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_ESTIMATORS_BOUND_SOLVER_H_

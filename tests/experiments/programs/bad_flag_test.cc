@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "experiments/programs/bad_flag.h"
+
+#include <gflags/gflags.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+DEFINE_double(test_voxel_size, 0.3, "");
+DEFINE_bool(test_explain, false, "");
+DEFINE_uint64(test_seed, 0, "");
+
+namespace quatro {
+namespace {
+
+TEST(BadFlag, TheNearestIsNamed) {
+  EXPECT_EQ(TellBadFlag({"--test_voxelsize=0.1"}),
+            "--test_voxelsize: unknown flag, did you mean --test_voxel_size; "
+            "--help lists all");
+  EXPECT_EQ(TellBadFlag({"-nothing_like_it"}),
+            "--nothing_like_it: unknown flag; --help lists all");
+}
+
+TEST(BadFlag, KnownOnesPass) {
+  EXPECT_EQ(TellBadFlag({"--test_voxel_size=1",
+                         "-test_voxel_size",
+                         "-0.5",
+                         "--test_explain",
+                         "--notest_explain",
+                         "a.bin",
+                         "-",
+                         "--",
+                         "--anything"}),
+            std::nullopt);
+}
+
+TEST(BadFlag, ABoolTakesNoValueOfItsOwn) {
+  EXPECT_NE(TellBadFlag({"--test_explain", "--test_explian"}), std::nullopt);
+}
+
+TEST(BadFlag, AValueOfAnotherTypeIsTold) {
+  EXPECT_EQ(TellBadFlag({"--test_voxel_size=small"}),
+            "--test_voxel_size=small, must be a number");
+  EXPECT_EQ(TellBadFlag({"--test_voxel_size", ""}),
+            "--test_voxel_size=, must be a number");
+  EXPECT_EQ(TellBadFlag({"--test_explain=maybe"}),
+            "--test_explain=maybe, must be true or false");
+  EXPECT_EQ(TellBadFlag({"--test_seed=-1"}),
+            "--test_seed=-1, must be a whole number from 0 to "
+            "18446744073709551615");
+}
+
+TEST(BadFlag, UndefokIsLeftToGflags) {
+  EXPECT_EQ(TellBadFlag({"--undefok=anything", "--anything=1"}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace quatro

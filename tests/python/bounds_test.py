@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 The quatro authors
+# SPDX-License-Identifier: MIT
+"""A prior on the pose, and points moved by the answer."""
+
+import numpy as np
+import problems
+import pytest
+
+import quatro
+
+FEW = problems.pose(0.3, (2, 1, 0.2))
+MANY = problems.pose(2.5, (-20, 15, -0.3))
+
+
+def two_poses(seed):
+    """60 matches follow FEW, 90 MANY."""
+    few = problems.matches(seed, FEW, 60, 0)
+    many = problems.matches(seed + 100, MANY, 90, 0)
+    return np.vstack((few[0], many[0])), np.vstack((few[1], many[1]))
+
+
+@pytest.mark.parametrize('method', quatro.methods())
+def test_bounds_decide_between_two_poses(method):
+    source, target = two_poses(1)
+    free = quatro.solve(source, target, method=method, noise_bound=0.1)
+    # FGR descends from no motion, and finds the pose that is nearer.
+    assert np.allclose(free.target_from_source, FEW if method == 'fgr' else MANY, atol=0.1)
+    answer = quatro.solve(source, target, method=method, noise_bound=0.1, guess=np.eye(4),
+                          max_translation=4.0, max_yaw_deg=30.0)
+    assert np.allclose(answer.target_from_source, FEW, atol=0.1)
+    assert set(answer.inliers) == set(range(60))
+    answer = quatro.solve(source, target, method=method, noise_bound=0.1, guess=MANY,
+                          max_translation=4.0, max_yaw_deg=30.0)
+    assert np.allclose(answer.target_from_source, MANY, atol=0.1)
+
+
+def test_bounds_without_a_pose_say_so():
+    source, target = two_poses(1)
+    answer = quatro.solve(source, target, max_translation=1.0, max_yaw_deg=1.0)
+    assert answer.target_from_source is None and answer.status == 'insufficient'
+    assert 'within the bounds given' in answer.reason or 'outside of the bounds' in answer.reason
+    with pytest.raises(ValueError, match='there is no pose to transform by'):
+        answer.transform(source)
+
+
+def test_bounds_that_do_not_fit_are_refused():
+    source, target = two_poses(1)
+    for options, text in (({'guess': np.eye(4)}, 'guess has no effect'),
+                          ({'max_translation': -1.0}, 'max_translation'),
+                          ({'max_yaw_deg': 200.0}, 'max_yaw'),
+                          ({'guess': np.ones((4, 4)), 'max_yaw_deg': 5.0}, 'guess'),
+                          ({'method': 'teaser', 'estimate_scale': True, 'max_yaw_deg': 5.0},
+                           'estimate_scale')):
+        with pytest.raises(ValueError, match=text):
+            quatro.solve(source, target, **options)
+
+
+def test_points_are_moved():
+    source, target = two_poses(1)
+    answer = quatro.solve(source, target, noise_bound=0.1)
+    pose = answer.target_from_source
+    assert np.allclose(answer.transform(source), source @ pose[:3, :3].T + pose[:3, 3])
+    assert np.allclose(answer.transform(source)[60:], target[60:], atol=0.2)
+    aligned = quatro.align(source, source, 'icp')
+    assert np.allclose(aligned.transform(source), source, atol=1e-6)

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/estimators/bound_solver.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "robust/estimators/quatro.h"
+#include "robust/verdict/verdict.h"
+#include "solvers/closed_form/gravity.h"
+#include "tests/support/two_poses.h"
+
+namespace quatro {
+namespace {
+
+using ::testing::ElementsAreArray;
+using ::testing::HasSubstr;
+
+constexpr double kNoiseBound = 0.3;  // [m]
+
+PoseSolver Quatro() {
+  return [](const PointsRef& source, const PointsRef& target) {
+    return SolveQuatro(source, target, QuatroOptions());
+  };
+}
+
+PoseBounds Around(const Rigid3& guess) {
+  PoseBounds bounds;
+  bounds.guess = guess;
+  bounds.max_translation = 3.0;
+  bounds.max_yaw = 0.3;
+  return bounds;
+}
+
+TEST(BoundSolver, ColumnsAreThoseOfAllMatches) {
+  const TwoPoses problem = MakeTwoPoses(1);
+  const PoseSummary summary =
+      BoundSolver(Quatro(), Around(problem.few), kNoiseBound)(problem.source,
+                                                              problem.target);
+  ASSERT_TRUE(summary.IsUsable()) << summary.message;
+  EXPECT_THAT(summary.translation_inliers, ElementsAreArray(problem.of_few));
+  EXPECT_THAT(summary.consistent, ElementsAreArray(problem.of_few));
+}
+
+TEST(BoundSolver, WithoutBoundsNothingChanges) {
+  const TwoPoses problem = MakeTwoPoses(1);
+  PoseBounds unbounded;
+  unbounded.guess = problem.few;
+  const PoseSummary plain = Quatro()(problem.source, problem.target);
+  const PoseSummary bounded = BoundSolver(Quatro(), unbounded, kNoiseBound)(
+      problem.source, problem.target);
+  ASSERT_TRUE(plain.IsUsable());
+  EXPECT_EQ(plain.target_from_source->ToMatrix(),
+            bounded.target_from_source->ToMatrix());
+  EXPECT_EQ(plain.translation_inliers, bounded.translation_inliers);
+  EXPECT_EQ(plain.message, bounded.message);
+}
+
+TEST(BoundSolver, APoseOutsideIsNoAnswer) {
+  const TwoPoses problem = MakeTwoPoses(1);
+  const PoseSolver stubborn = [&](const PointsRef&, const PointsRef&) {
+    PoseSummary summary;
+    summary.termination = PoseTermination::kSolved;
+    summary.target_from_source = problem.many;
+    return summary;
+  };
+  const PoseSummary summary =
+      BoundSolver(stubborn, Around(problem.few), kNoiseBound)(problem.source,
+                                                              problem.target);
+  EXPECT_EQ(summary.termination, PoseTermination::kInsufficient);
+  EXPECT_FALSE(summary.IsUsable());
+  EXPECT_THAT(summary.message,
+              HasSubstr("the best pose lies outside of the bounds given"));
+  EXPECT_THAT(summary.message, HasSubstr("at most 3 m"));
+}
+
+TEST(BoundSolver, BoundsWithoutAnyMatchSaySo) {
+  const TwoPoses problem = MakeTwoPoses(1);
+  const PoseSummary summary = BoundSolver(
+      Quatro(), Around({RotationZ(0.0), {500.0, 0.0, 0.0}}), kNoiseBound)(
+      problem.source, problem.target);
+  EXPECT_EQ(summary.termination, PoseTermination::kInsufficient);
+  EXPECT_THAT(summary.message,
+              HasSubstr("within the bounds given, 0 of 150 matches"));
+}
+
+TEST(BoundSolver, BadBoundsAreInvalidInput) {
+  PoseBounds bounds = Around({});
+  bounds.max_yaw = 7.0;
+  const TwoPoses problem = MakeTwoPoses(1);
+  const PoseSummary summary = BoundSolver(Quatro(), bounds, kNoiseBound)(
+      problem.source, problem.target);
+  EXPECT_EQ(summary.termination, PoseTermination::kInvalidInput);
+  EXPECT_THAT(summary.message, HasSubstr("bounds.max_yaw"));
+}
+
+// Scans of vehicles that stand tilted, with an INS: the guess is a yaw and a
+// translation between the points as given, its roll and pitch are the INS'.
+TEST(BoundSolver, BoundsAreOfTheGivenFramesWithAnIns) {
+  const TwoPoses level = MakeTwoPoses(2);
+  InsOptions ins;
+  ins.mode = InsMode::kLeveled;
+  ins.source_attitude = {0.15, -0.1, 0.0};
+  ins.target_attitude = {-0.1, 0.12, 0.0};
+  const LevelFrames frames = MakeLevelFrames(ins);
+  const Rigid3 source_from_level{frames.level_from_source.transpose(), {}};
+  const Rigid3 target_from_level{frames.level_from_target.transpose(), {}};
+  const Points source = source_from_level.rotation * level.source;
+  const Points target = target_from_level.rotation * level.target;
+  Rigid3 truth;
+  truth.rotation = target_from_level.rotation * level.few.rotation *
+                   frames.level_from_source;
+  truth.translation = target_from_level.rotation * level.few.translation;
+
+  const Rigid3 guess{RotationZ(Yaw(truth.rotation)), truth.translation};
+  const PoseSummary bounded =
+      SolveWithin(source, target, Quatro(), kNoiseBound, ins, Around(guess));
+  ASSERT_TRUE(bounded.IsUsable()) << bounded.message;
+  EXPECT_LT((bounded.target_from_source->ToMatrix() - truth.ToMatrix()).norm(),
+            0.1);
+  const PoseSummary free =
+      SolveWithin(source, target, Quatro(), kNoiseBound, ins, PoseBounds());
+  ASSERT_TRUE(free.IsUsable());
+  EXPECT_GT((free.target_from_source->ToMatrix() - truth.ToMatrix()).norm(),
+            1.0);
+}
+
+TEST(BoundSolver, GravityAlongAnotherAxisTurnsTheYawWithIt) {
+  const TwoPoses level = MakeTwoPoses(3);
+  InsOptions ins;
+  ins.up = Eigen::Vector3d::UnitX();
+  const Eigen::Matrix3d turned =
+      RotationBetween(Eigen::Vector3d::UnitZ(), ins.up);
+  const Rigid3 few{turned * level.few.rotation * turned.transpose(),
+                   turned * level.few.translation};
+  const PoseSummary summary = SolveWithin(turned * level.source,
+                                          turned * level.target,
+                                          Quatro(),
+                                          kNoiseBound,
+                                          ins,
+                                          Around(few));
+  ASSERT_TRUE(summary.IsUsable()) << summary.message;
+  EXPECT_LT((summary.target_from_source->ToMatrix() - few.ToMatrix()).norm(),
+            0.1);
+}
+
+TEST(BoundSolver, ARivalOutsideOfTheBoundsIsNone) {
+  const TwoPoses problem = MakeTwoPoses(4);
+  const PoseBounds bounds = Around(problem.few);
+  const PoseSummary summary = BoundSolver(Quatro(), bounds, kNoiseBound)(
+      problem.source, problem.target);
+  VerdictOptions options;
+  const auto judge = [&] {
+    return Judge(problem.source,
+                 problem.target,
+                 summary,
+                 kNoiseBound,
+                 std::nullopt,
+                 options);
+  };
+  const Verdict free = judge();
+  ASSERT_TRUE(free.rival);
+  EXPECT_EQ(free.rival->num_inliers, 90);
+  EXPECT_EQ(free.status, Status::kAmbiguous);
+  options.rival.bounds = bounds;
+  const Verdict bounded = judge();
+  EXPECT_TRUE(!bounded.rival || bounded.rival->num_inliers < 10);
+  EXPECT_EQ(bounded.status, Status::kRegistered) << bounded.reason;
+}
+
+}  // namespace
+}  // namespace quatro
