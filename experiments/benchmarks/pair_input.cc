@@ -49,7 +49,7 @@ PairInput MakePairInput(PointCloud source,
   CHECK(input.matched.error.empty()) << input.matched.error;
   input.matches = FindDistinctMatches(input.matched.matched_source,
                                       input.matched.matched_target);
-  const QuatroOptions& quatro = options.quatro;
+  const QuatroOptions quatro = WithSharedValues(options).quatro;
   input.consistency.test = quatro.consistency_test;
   input.consistency.bound = 2.0 * quatro.noise_bound;
   input.consistency.max_tilt = quatro.max_tilt;

@@ -249,8 +249,7 @@ void AddEstimation(const Adder& add) {
                             pair.options.noise_bound));
   });
   add("solve/quatro", Needs::kClouds, [](const PairInput& pair, Counters*) {
-    QuatroOptions options = pair.options.quatro;
-    options.num_threads = pair.options.num_threads;
+    const QuatroOptions options = WithSharedValues(pair.options).quatro;
     benchmark::DoNotOptimize(SolveQuatro(
         pair.matched.matched_source, pair.matched.matched_target, options));
   });
@@ -332,10 +331,9 @@ void AddRefinement(const Adder& add) {
     add(name + "/quatro",
         Needs::kPose,
         [method](const PairInput& pair, Counters* c) {
-          const auto& [source, target] = pair.clouds;
           const AlignmentSummary summary =
-              Align({*source.tree, source.normals},
-                    {*target.tree, target.normals},
+              Align(pair.matched.source,
+                    pair.matched.target,
                     *pair.summary.target_from_source(),
                     RefinementOf(pair, method));
           (*c)["inliers"] = AsCount(summary.num_inliers);
@@ -367,27 +365,23 @@ void AddRefinement(const Adder& add) {
 
 void AddVerdict(const Adder& add) {
   add("evidence/quatro", Needs::kPose, [](const PairInput& pair, Counters*) {
-    const auto as_surface = [](const DescribedCloud& cloud) -> DescribedCloud {
-      return {cloud.sensor.place,
-              *cloud.tree,
-              cloud.normals,
-              cloud.sensor.is_scan,
-              Eigen::Vector3d::UnitZ()};
-    };
-    EvidenceOptions evidence;
-    evidence.voxel_size = pair.options.front_end.voxel_size;
-    SurfaceObservabilityOptions hold = pair.options.surface_observability;
-    hold.max_distance = evidence.MaxDistance();
-    const DescribedCloud source = as_surface(pair.matched.source);
-    const DescribedCloud target = as_surface(pair.matched.target);
+    const EvidenceOptions& evidence = pair.options.evidence;
+    const double voxel_size = pair.options.front_end.voxel_size;
+    const DescribedCloud& source = pair.matched.source;
+    const DescribedCloud& target = pair.matched.target;
     const Rigid3& pose = *pair.summary.target_from_source();
     const int threads = pair.options.num_threads;
-    const MutualContacts contacts =
-        FindMutualContacts(source, target, pose, hold.max_distance, threads);
-    benchmark::DoNotOptimize(MeasureSurfaceObservability(
-        source, target, pose, contacts, hold, threads));
+    const MutualContacts contacts = FindMutualContacts(
+        source, target, pose, evidence.MaxDistance(voxel_size), threads);
+    benchmark::DoNotOptimize(
+        MeasureSurfaceObservability(source,
+                                    target,
+                                    pose,
+                                    contacts,
+                                    pair.options.surface_observability,
+                                    threads));
     benchmark::DoNotOptimize(MeasureGeometricEvidence(
-        source, target, pose, contacts, evidence, threads));
+        source, target, pose, contacts, voxel_size, evidence, threads));
   });
   add("verdict/quatro", Needs::kPose, [](const PairInput& pair, Counters* c) {
     VerdictOptions options = pair.options.verdict;

@@ -236,7 +236,7 @@ int Main(int argc, char** argv) {
   const auto parts = quatro::FirstOfParts(graph, summary.weights);
   if (parts.size() > 1) {
     std::fprintf(
-      out,
+        out,
         "the graph has %zu components: neither odometry nor an accepted loop "
         "joins pose %lld to pose %lld; add edges between them\n",
         parts.size(),

@@ -11,14 +11,13 @@
 
 #include "experiments/base/outputs.h"
 #include "experiments/programs/aligned_clouds.h"
-#include "experiments/programs/bound_flags.h"
 #include "experiments/programs/explain.h"
-#include "experiments/programs/ins_flags.h"
 #include "experiments/programs/json_report.h"
 #include "experiments/programs/matches_csv.h"
 #include "experiments/programs/methods.h"
 #include "experiments/programs/picture.h"
 #include "experiments/programs/program.h"
+#include "experiments/programs/registration_flags.h"
 #include "experiments/report/pair_report.h"
 #include "experiments/report/report_template.h"
 #include "experiments/runner/manifest.h"
@@ -38,6 +37,11 @@ DEFINE_string(preset,
               "indoor (16 beams), or auto (from the clouds themselves)");
 DEFINE_string(method, "quatro", "Method; see --list_methods");
 DEFINE_bool(list_methods, false, "List the methods and exit");
+DEFINE_string(options,
+              "",
+              "Further options of the method, name=value;name=value; see "
+              "--list_options");
+DEFINE_bool(list_options, false, "List the options of --method and exit");
 DEFINE_string(recover,
               "",
               "Re-estimate the translation: on or off; empty: the "
@@ -61,7 +65,7 @@ DEFINE_string(target_rpy_deg,
 DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
-DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
+DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
 DEFINE_string(guess,
               "",
               "A prior on target_from_source: x,y,z,yaw_deg, or a text file of "
@@ -85,9 +89,11 @@ DEFINE_double(fpfh_radius,
               "Radius of the descriptors [m]; 0: the preset's");
 DEFINE_double(noise_bound,
               0.0,
-              "How far a right match may be off [m]; 0: the preset's");
-DEFINE_uint64(seed, 0, "Of all that is drawn at random");
-DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+              "Largest error of an inlier [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Random seed");
+DEFINE_int32(threads,
+             0,
+             "Threads; 0: one per core. Does not affect the result");
 DEFINE_string(json, "", "File for the answer; empty or -: standard output");
 DEFINE_bool(explain,
             false,
@@ -112,24 +118,25 @@ DEFINE_string(correspondences_out,
 
 namespace {
 
-std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
-  return quatro::ParseInsFlags({FLAGS_ins_mode,
-                                FLAGS_source_rpy_deg,
-                                FLAGS_target_rpy_deg,
-                                FLAGS_ins_std_deg,
-                                FLAGS_gravity},
-                               error);
-}
-
-// For a method that starts from the guess, `is_local`.
-std::optional<quatro::PoseBounds> BoundsFromFlags(bool is_local,
-                                                  std::string* error) {
-  return quatro::ParseBoundFlags({FLAGS_guess,
-                                  FLAGS_max_translation,
-                                  FLAGS_max_yaw_deg,
-                                  FLAGS_max_tilt_deg},
-                                 is_local,
-                                 error);
+quatro::RegistrationFlags GivenFlags() {
+  return {FLAGS_method,
+          FLAGS_recover,
+          FLAGS_polish,
+          FLAGS_refine,
+          FLAGS_options,
+          FLAGS_crosscheck,
+          FLAGS_noise_bound,
+          FLAGS_seed,
+          FLAGS_threads,
+          {FLAGS_ins_mode,
+           FLAGS_source_rpy_deg,
+           FLAGS_target_rpy_deg,
+           FLAGS_ins_std_deg,
+           FLAGS_gravity},
+          {FLAGS_guess,
+           FLAGS_max_translation,
+           FLAGS_max_yaw_deg,
+           FLAGS_max_tilt_deg}};
 }
 
 // The report's header: what the answer depends on.
@@ -167,7 +174,6 @@ constexpr char kUsage[] =
 std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     const quatro::PointCloud& source,
     const quatro::PointCloud& target,
-    const quatro::InsOptions& ins,
     std::string* error) {
   auto options = FLAGS_preset == "auto"
                      ? quatro::MakeAutoOptions(source, target)
@@ -183,43 +189,9 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   override_with(FLAGS_voxel_size, &options->front_end.voxel_size);
   override_with(FLAGS_normal_radius, &options->front_end.normal_radius);
   override_with(FLAGS_fpfh_radius, &options->front_end.fpfh_radius);
-  override_with(FLAGS_noise_bound, &options->noise_bound);
-  options->seed = FLAGS_seed;
-  options->num_threads = FLAGS_threads;
-  options->quatro.seed = FLAGS_seed;
-  options->quatro.num_threads = FLAGS_threads;
-  options->quatro.crosscheck = FLAGS_crosscheck;
-  if (!quatro::ApplySwitch("recover",
-                           FLAGS_recover,
-                           &options->quatro.recover_translation,
-                           error) ||
-      !quatro::ApplySwitch(
-          "polish", FLAGS_polish, &options->quatro.polish, error)) {
+  if (!quatro::ApplyFlags(GivenFlags(), true, &*options, error)) {
     return std::nullopt;
   }
-  if (!quatro::ParseRefinement(
-          FLAGS_refine, &options->refinement.method, error)) {
-    return std::nullopt;
-  }
-  if (!options->IsValid(error)) return std::nullopt;
-  options->ins = ins;
-  const auto bounds =
-      BoundsFromFlags(quatro::StartsFromGuess(FLAGS_method), error);
-  if (!bounds) return std::nullopt;
-  options->bounds = *bounds;
-  if (quatro::FindCloudSolver(FLAGS_method)) {
-    const char* unused = nullptr;
-    if (FLAGS_refine != "none") unused = "refine";
-    if (ins.up != Eigen::Vector3d::UnitZ()) unused = "gravity";
-    if (ins.mode != quatro::InsMode::kNone) unused = "ins_mode";
-    if (unused == nullptr) return options;
-    *error = std::string("--") + unused +
-             " does not go with --method=" + FLAGS_method;
-    return std::nullopt;
-  }
-  options->solver =
-      quatro::MakeLevelSolver(FLAGS_method, options->quatro, ins, error);
-  if (!options->solver) return std::nullopt;
   return options;
 }
 
@@ -234,6 +206,13 @@ int Main(int argc, char** argv) {
     return quatro::kExitDone;
   }
   std::string error;
+  if (FLAGS_list_options) {
+    const std::string text =
+        quatro::DescribeOptionsOf(FLAGS_method, /*has_clouds=*/true, &error);
+    if (text.empty()) return Fail(error);
+    std::fputs(text.c_str(), stdout);
+    return quatro::kExitDone;
+  }
   if (FLAGS_source.empty()) return Fail("--source is empty, must name a cloud");
   if (FLAGS_target.empty()) return Fail("--target is empty, must name a cloud");
   // What can be found wrong at once is found before the work is done.
@@ -262,9 +241,7 @@ int Main(int argc, char** argv) {
     report_template = quatro::ReadReportTemplate(&error);
     if (!report_template) return Fail("--report: " + error);
   }
-  const auto ins = InsFromFlags(&error);
-  if (!ins) return Fail(error);
-  if (!OptionsFromFlags({}, {}, *ins, &error)) return Fail(error);
+  if (!OptionsFromFlags({}, {}, &error)) return Fail(error);
 
   const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
   if (!reading.IsValid(&error)) return Fail("--" + error);
@@ -276,19 +253,16 @@ int Main(int argc, char** argv) {
   if (std::filesystem::equivalent(FLAGS_source, FLAGS_target, ignored)) {
     std::fprintf(stderr, "source and target are the same file\n");
   }
-  auto options = OptionsFromFlags(*source, *target, *ins, &error);
+  auto options = OptionsFromFlags(*source, *target, &error);
   if (!options) return Fail(error);
   options->progress = [](const quatro::StageTime& time) {
     std::fprintf(
         stderr, "%-12s %9.1f ms\n", time.stage.c_str(), time.seconds * 1e3);
   };
 
-  const quatro::CloudSolver cloud_solver =
-      quatro::FindCloudSolver(FLAGS_method);
   const quatro::RegistrationSummary summary =
-      cloud_solver
-          ? cloud_solver(*source, *target, options->bounds.guess, *options)
-          : quatro::Register(*source, *target, *options);
+      quatro::FindPairSolver(FLAGS_method, {}, &error)(
+          *source, *target, /*matched=*/nullptr, *options);
   if (!summary.error.empty()) return Fail(summary.error);
 
   quatro::Json report = quatro::MakeReport(FLAGS_method,
@@ -303,7 +277,7 @@ int Main(int argc, char** argv) {
                    {"target_points", target->points.cols()},
                    {"target_dropped", target->num_dropped},
                    {"target_voxels", summary.num_target_voxels}});
-  if (!cloud_solver) {
+  if (summary.matched_source.cols() > 0) {
     report["counts"]["mutual_matches"] = summary.num_mutual_matches;
   }
   report["surface_observability"] =
@@ -313,8 +287,9 @@ int Main(int argc, char** argv) {
                           {"target", FLAGS_target},
                           {"preset", FLAGS_preset}};
   report["parameters"].update(quatro::DescribeOptions(options->front_end));
-  report["parameters"].update(quatro::DescribeOptions(options->quatro));
-  report["parameters"].update(quatro::DescribeOptions(*ins));
+  report["parameters"].update(
+      quatro::DescribeOptions(quatro::WithSharedValues(*options).quatro));
+  report["parameters"].update(quatro::DescribeOptions(options->ins));
   report["parameters"].update(quatro::DescribeOptions(options->bounds));
   report["version"] = quatro::Version();
   std::fprintf(stderr,

@@ -9,18 +9,15 @@
 #include <vector>
 
 #include "experiments/base/outputs.h"
-#include "experiments/programs/bound_flags.h"
 #include "experiments/programs/explain.h"
 #include "experiments/programs/flag_problems.h"
-#include "experiments/programs/ins_flags.h"
 #include "experiments/programs/json_report.h"
 #include "experiments/programs/matches_csv.h"
 #include "experiments/programs/methods.h"
 #include "experiments/programs/picture.h"
 #include "experiments/programs/program.h"
-#include "robust/estimators/bound_solver.h"
-#include "robust/verdict/summary_covariance.h"
-#include "robust/verdict/verdict.h"
+#include "experiments/programs/registration_flags.h"
+#include "robust/registration/registration.h"
 
 DEFINE_string(correspondences,
               "",
@@ -29,6 +26,11 @@ DEFINE_string(correspondences,
 DEFINE_string(preset, "kitti", "kitti, paper, reference or indoor");
 DEFINE_string(method, "auto", "Method; see --list_methods");
 DEFINE_bool(list_methods, false, "List the methods and exit");
+DEFINE_string(options,
+              "",
+              "Further options of the method, name=value;name=value; see "
+              "--list_options");
+DEFINE_bool(list_options, false, "List the options of --method and exit");
 DEFINE_string(recover,
               "",
               "Re-estimate the translation: on or off; empty: the "
@@ -48,7 +50,7 @@ DEFINE_string(target_rpy_deg,
 DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
-DEFINE_string(gravity, "0,0,1", "What is up in a level cloud: x,y,z");
+DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
 DEFINE_string(guess,
               "",
               "A prior on target_from_source: x,y,z,yaw_deg, or a text file of "
@@ -67,9 +69,11 @@ DEFINE_bool(crosscheck,
             "largest difference");
 DEFINE_double(noise_bound,
               0.0,
-              "How far a right match may be off [m]; 0: the preset's");
-DEFINE_uint64(seed, 0, "Of all that is drawn at random");
-DEFINE_int32(threads, 0, "0: one per core. The answer does not depend on it");
+              "Largest error of an inlier [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Random seed");
+DEFINE_int32(threads,
+             0,
+             "Threads; 0: one per core. Does not affect the result");
 DEFINE_string(json, "", "File for the answer; empty or -: standard output");
 DEFINE_bool(explain,
             false,
@@ -79,24 +83,25 @@ DEFINE_string(picture, "", "PNG file for the points before and after");
 
 namespace {
 
-std::optional<quatro::InsOptions> InsFromFlags(std::string* error) {
-  return quatro::ParseInsFlags({FLAGS_ins_mode,
-                                FLAGS_source_rpy_deg,
-                                FLAGS_target_rpy_deg,
-                                FLAGS_ins_std_deg,
-                                FLAGS_gravity},
-                               error);
-}
-
-// For a method that starts from the guess, `is_local`.
-std::optional<quatro::PoseBounds> BoundsFromFlags(bool is_local,
-                                                  std::string* error) {
-  return quatro::ParseBoundFlags({FLAGS_guess,
-                                  FLAGS_max_translation,
-                                  FLAGS_max_yaw_deg,
-                                  FLAGS_max_tilt_deg},
-                                 is_local,
-                                 error);
+quatro::RegistrationFlags GivenFlags() {
+  return {FLAGS_method,
+          FLAGS_recover,
+          FLAGS_polish,
+          /*refine=*/"",
+          FLAGS_options,
+          FLAGS_crosscheck,
+          FLAGS_noise_bound,
+          FLAGS_seed,
+          FLAGS_threads,
+          {FLAGS_ins_mode,
+           FLAGS_source_rpy_deg,
+           FLAGS_target_rpy_deg,
+           FLAGS_ins_std_deg,
+           FLAGS_gravity},
+          {FLAGS_guess,
+           FLAGS_max_translation,
+           FLAGS_max_yaw_deg,
+           FLAGS_max_tilt_deg}};
 }
 
 constexpr char kUsage[] =
@@ -110,28 +115,6 @@ constexpr char kUsage[] =
     "written\n"
     "then).";
 
-std::optional<quatro::RegistrationOptions> OptionsFromFlags(
-    std::string* error) {
-  auto options = quatro::FindPreset(FLAGS_preset, error);
-  if (!options) return std::nullopt;
-  if (FLAGS_noise_bound != 0.0) {
-    options->noise_bound = FLAGS_noise_bound;
-  }
-  options->quatro.seed = FLAGS_seed;
-  options->quatro.num_threads = FLAGS_threads;
-  options->quatro.crosscheck = FLAGS_crosscheck;
-  if (!quatro::ApplySwitch("recover",
-                           FLAGS_recover,
-                           &options->quatro.recover_translation,
-                           error) ||
-      !quatro::ApplySwitch(
-          "polish", FLAGS_polish, &options->quatro.polish, error)) {
-    return std::nullopt;
-  }
-  if (!options->IsValid(error)) return std::nullopt;
-  return options;
-}
-
 int Main(int argc, char** argv) {
   using quatro::Fail;
   if (const auto exit_code =
@@ -143,6 +126,13 @@ int Main(int argc, char** argv) {
     return quatro::kExitDone;
   }
   std::string error;
+  if (FLAGS_list_options) {
+    const std::string text =
+        quatro::DescribeOptionsOf(FLAGS_method, /*has_clouds=*/false, &error);
+    if (text.empty()) return Fail(error);
+    std::fputs(text.c_str(), stdout);
+    return quatro::kExitDone;
+  }
   if (FLAGS_correspondences.empty()) {
     return Fail("--correspondences is empty, must name a CSV file");
   }
@@ -160,50 +150,30 @@ int Main(int argc, char** argv) {
   if (!FLAGS_picture.empty() && !quatro::CanDrawPictures(&error)) {
     return Fail(error);
   }
-  const auto options = OptionsFromFlags(&error);
-  if (!options) return Fail(error);
-  const auto ins = InsFromFlags(&error);
-  if (!ins) return Fail(error);
-  const quatro::PoseSolver solver =
-      quatro::MakeLevelSolver(FLAGS_method, options->quatro, *ins, &error);
-  if (!solver) return Fail(error);
-  const auto bounds = BoundsFromFlags(/*is_local=*/false, &error);
-  if (!bounds) return Fail(error);
+  auto options = quatro::FindPreset(FLAGS_preset, &error);
+  if (!options || !quatro::ApplyFlags(
+                      GivenFlags(), /*has_clouds=*/false, &*options, &error)) {
+    return Fail(error);
+  }
   const auto matches = quatro::ReadMatches(FLAGS_correspondences, &error);
   if (!matches) return Fail(error);
 
-  quatro::Stopwatch stopwatch;
-  quatro::PoseSummary summary = quatro::SolveWithin(matches->source,
-                                                    matches->target,
-                                                    solver,
-                                                    options->quatro.noise_bound,
-                                                    *ins,
-                                                    *bounds);
-  quatro::AddCovariance(matches->source,
-                        matches->target,
-                        options->noise_bound,
-                        options->covariance,
-                        &summary);
-  const double total_seconds = stopwatch.Lap();
-  quatro::VerdictOptions verdict_options = options->verdict;
-  verdict_options.rival.seed = FLAGS_seed;
-  verdict_options.rival.num_threads = FLAGS_threads;
-  verdict_options.rival.up_in_target = ins->up;
-  verdict_options.rival.bounds = quatro::WithVertical(*bounds, *ins);
-  const quatro::Verdict verdict = quatro::Judge(matches->source,
-                                                matches->target,
-                                                summary,
-                                                options->noise_bound,
-                                                /*geometry=*/std::nullopt,
-                                                verdict_options);
+  const quatro::RegistrationSummary summary = quatro::FindMatchSolver(
+      FLAGS_method, {}, &error)({matches->source, matches->target}, *options);
+  if (!summary.error.empty()) return Fail(summary.error);
+  const quatro::Verdict& verdict = summary.verdict;
 
-  quatro::Json report = quatro::MakeReport(
-      FLAGS_method, verdict, summary, summary.stage_times, total_seconds);
+  quatro::Json report = quatro::MakeReport(FLAGS_method,
+                                           verdict,
+                                           summary.solution,
+                                           summary.stage_times,
+                                           summary.total_seconds);
   report["parameters"] = {{"correspondences", FLAGS_correspondences},
                           {"preset", FLAGS_preset}};
-  report["parameters"].update(quatro::DescribeOptions(options->quatro));
-  report["parameters"].update(quatro::DescribeOptions(*ins));
-  report["parameters"].update(quatro::DescribeOptions(*bounds));
+  report["parameters"].update(
+      quatro::DescribeOptions(quatro::WithSharedValues(*options).quatro));
+  report["parameters"].update(quatro::DescribeOptions(options->ins));
+  report["parameters"].update(quatro::DescribeOptions(options->bounds));
   report["version"] = quatro::Version();
   std::fprintf(stderr,
                "%s: %s\n",
@@ -217,8 +187,8 @@ int Main(int argc, char** argv) {
          matches->target,
          matches->source,
          matches->target,
-         summary.translation_inliers,
-         summary.target_from_source,
+         summary.solution.translation_inliers,
+         summary.target_from_source(),
          std::string(quatro::StatusName(verdict.status)) + ": " +
              verdict.reason},
         &error);

@@ -10,15 +10,12 @@
 
 #include "experiments/simulator/synthetic.h"
 #include "features/base/stopwatch.h"
+#include "methods/closed_form/exact_yaw.h"
 #include "robust/estimators/arc_consensus.h"
-#include "robust/estimators/quatro.h"
-#include "robust/estimators/teaser.h"
 #include "robust/gnc/gnc.h"
 #include "robust/gnc/quasi_so3.h"
 #include "robust/gnc/surrogate.h"
-#include "robust/registration/ins.h"
-#include "robust/verdict/verdict.h"
-#include "solvers/closed_form/exact_yaw.h"
+#include "robust/registration/registration.h"
 
 namespace quatro {
 namespace {
@@ -45,16 +42,16 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-bool HasRightRotation(const PoseSummary& summary,
-                      const MatchedProblem& problem,
-                      double tolerance) {
+bool HasCorrectRotation(const PoseSummary& summary,
+                        const MatchedProblem& problem,
+                        double tolerance) {
   return summary.IsUsable() &&
          AngleBetween(summary.target_from_source->rotation,
                       problem.true_target_from_source.rotation) <= tolerance;
 }
 
-bool HasRightTranslation(const PoseSummary& summary,
-                         const MatchedProblem& problem) {
+bool HasCorrectTranslation(const PoseSummary& summary,
+                           const MatchedProblem& problem) {
   return summary.IsUsable() && (summary.target_from_source->translation -
                                 problem.true_target_from_source.translation)
                                        .norm() <= kTranslationTolerance;
@@ -63,57 +60,43 @@ bool HasRightTranslation(const PoseSummary& summary,
 // Counts correct results of a solver.
 struct Tally {
   int num_answers = 0;
-  int num_right_rotations = 0;
-  int num_right_translations = 0;
+  int num_correct_rotations = 0;
+  int num_correct_translations = 0;
   int num_registered = 0;
 
-  void Add(const PoseSummary& summary,
+  void Add(const RegistrationSummary& summary,
            const MatchedProblem& problem,
-           double rotation_tolerance,
-           double noise_bound) {
-    num_answers += summary.IsUsable();
-    num_right_rotations +=
-        HasRightRotation(summary, problem, rotation_tolerance);
-    num_right_translations += HasRightTranslation(summary, problem);
-    num_registered += Judge(problem.source,
-                            problem.target,
-                            summary,
-                            noise_bound,
-                            /*geometry=*/std::nullopt,
-                            {})
-                          .IsRegistered();
+           double rotation_tolerance) {
+    num_answers += summary.solution.IsUsable();
+    num_correct_rotations +=
+        HasCorrectRotation(summary.solution, problem, rotation_tolerance);
+    num_correct_translations +=
+        HasCorrectTranslation(summary.solution, problem);
+    num_registered += summary.verdict.IsRegistered();
   }
 };
 
-struct NamedSolver {
+struct NamedMethod {
   std::string name;
-  std::function<PoseSummary(const MatchedProblem&)> solve;
+  RegistrationOptions options;
+
+  RegistrationSummary Solve(const MatchedProblem& problem) const {
+    return RegisterMatches({problem.source, problem.target}, options);
+  }
 };
 
-std::vector<NamedSolver> SolversAt(double noise_bound) {
-  QuatroOptions paper;
-  paper.noise_bound = noise_bound;
-  paper.replace_missed_optimum = false;
-  paper.recover_translation = false;
-  paper.polish = false;
-  QuatroOptions ours;
+std::vector<NamedMethod> MethodsAt(double noise_bound) {
+  RegistrationOptions ours;
   ours.noise_bound = noise_bound;
-  TeaserOptions teaser;
-  teaser.noise_bound = noise_bound;
-  return {
-      {"SO(3), teaser",
-       [teaser](const MatchedProblem& problem) {
-         return SolveTeaser(problem.source, problem.target, teaser);
-       }},
-      {"quasi-SO(3), as in the paper",
-       [paper](const MatchedProblem& problem) {
-         return SolveQuatro(problem.source, problem.target, paper);
-       }},
-      {"quasi-SO(3), recover and polish",
-       [ours](const MatchedProblem& problem) {
-         return SolveQuatro(problem.source, problem.target, ours);
-       }},
-  };
+  RegistrationOptions paper = ours;
+  paper.quatro.replace_missed_optimum = false;
+  paper.quatro.recover_translation = false;
+  paper.quatro.polish = false;
+  RegistrationOptions teaser = ours;
+  teaser.method = "teaser";
+  return {{"SO(3), teaser", teaser},
+          {"quasi-SO(3), as in the paper", paper},
+          {"quasi-SO(3), recover and polish", ours}};
 }
 
 }  // namespace
@@ -201,12 +184,12 @@ Table RunDegeneracyProtocol(int num_seeds, const Progress& progress) {
   constexpr double kNoiseBound = 0.3;
   constexpr double kTolerance = 5.0 * kDegree;  // Two matches allow no better.
   const std::vector<Eigen::Index> num_true = {1, 2, 3, 5};
-  const auto solvers = SolversAt(kNoiseBound);
+  const auto methods = MethodsAt(kNoiseBound);
   const int num_problems = static_cast<int>(num_true.size()) * num_seeds;
   Table table{
       {"estimator", "true of 50", "answers", "correct rotation", "registered"},
       {}};
-  std::vector<std::vector<Tally>> tallies(solvers.size(),
+  std::vector<std::vector<Tally>> tallies(methods.size(),
                                           std::vector<Tally>(num_true.size()));
   int num_done = 0;
   for (std::size_t i = 0; i < num_true.size(); ++i) {
@@ -217,20 +200,19 @@ Table RunDegeneracyProtocol(int num_seeds, const Progress& progress) {
                                 kNoiseBound / 3.0,
                                 2.0 * kNoiseBound,
                                 static_cast<std::uint64_t>(seed));
-      for (std::size_t s = 0; s < solvers.size(); ++s) {
-        tallies[s][i].Add(
-            solvers[s].solve(problem), problem, kTolerance, kNoiseBound);
+      for (std::size_t s = 0; s < methods.size(); ++s) {
+        tallies[s][i].Add(methods[s].Solve(problem), problem, kTolerance);
       }
       progress(++num_done, num_problems);
     }
   }
-  for (std::size_t s = 0; s < solvers.size(); ++s) {
+  for (std::size_t s = 0; s < methods.size(); ++s) {
     for (std::size_t i = 0; i < num_true.size(); ++i) {
       const Tally& tally = tallies[s][i];
-      table.rows.push_back({solvers[s].name,
+      table.rows.push_back({methods[s].name,
                             std::to_string(num_true[i]),
                             Count(tally.num_answers, num_seeds),
-                            Count(tally.num_right_rotations, num_seeds),
+                            Count(tally.num_correct_rotations, num_seeds),
                             Count(tally.num_registered, num_seeds)});
     }
   }
@@ -252,9 +234,9 @@ Table RunQuasiInlierProtocol(int num_seeds, const Progress& progress) {
               {}};
   int num_done = 0;
   for (const double noise_bound : noise_bounds) {
-    const auto solvers = SolversAt(noise_bound);
+    const auto methods = MethodsAt(noise_bound);
     std::vector<std::vector<Tally>> tallies(
-        solvers.size(), std::vector<Tally>(num_quasi.size()));
+        methods.size(), std::vector<Tally>(num_quasi.size()));
     for (std::size_t i = 0; i < num_quasi.size(); ++i) {
       for (int seed = 0; seed < num_seeds; ++seed) {
         const MatchedProblem problem =
@@ -263,21 +245,21 @@ Table RunQuasiInlierProtocol(int num_seeds, const Progress& progress) {
                                    num_quasi[i],
                                    noise_bound / 3.0,
                                    static_cast<std::uint64_t>(seed));
-        for (std::size_t s = 0; s < solvers.size(); ++s) {
-          tallies[s][i].Add(
-              solvers[s].solve(problem), problem, kYawTolerance, noise_bound);
+        for (std::size_t s = 0; s < methods.size(); ++s) {
+          tallies[s][i].Add(methods[s].Solve(problem), problem, kYawTolerance);
         }
         progress(++num_done, num_problems);
       }
     }
-    for (std::size_t s = 0; s < solvers.size(); ++s) {
+    for (std::size_t s = 0; s < methods.size(); ++s) {
       for (std::size_t i = 0; i < num_quasi.size(); ++i) {
         const Tally& tally = tallies[s][i];
-        table.rows.push_back({solvers[s].name,
-                              Number(noise_bound, 1),
-                              "20/" + std::to_string(num_quasi[i]),
-                              Count(tally.num_right_rotations, num_seeds),
-                              Count(tally.num_right_translations, num_seeds)});
+        table.rows.push_back(
+            {methods[s].name,
+             Number(noise_bound, 1),
+             "20/" + std::to_string(num_quasi[i]),
+             Count(tally.num_correct_rotations, num_seeds),
+             Count(tally.num_correct_translations, num_seeds)});
       }
     }
   }
@@ -308,8 +290,8 @@ Table RunSizeProtocol(int num_seeds,
         const PoseSummary summary =
             SolveArcConsensus(problem.source, problem.target, options);
         seconds.push_back(stopwatch.Lap());
-        num_right += HasRightRotation(summary, problem, kYawTolerance) &&
-                     HasRightTranslation(summary, problem);
+        num_right += HasCorrectRotation(summary, problem, kYawTolerance) &&
+                     HasCorrectTranslation(summary, problem);
         progress(++num_done, num_problems);
       }
       table.rows.push_back({std::to_string(size),
@@ -358,16 +340,16 @@ Table RunSlopeProtocol(int num_seeds, const Progress& progress) {
             static_cast<std::uint64_t>(seed));
         const MatchedProblem& matches = problem.matches;
         for (std::size_t k = 0; k < 2 * modes.size(); ++k) {
-          QuatroOptions options;
+          RegistrationOptions options;
           options.noise_bound = kNoiseBound;
-          options.polish = k % 2 == 1;
-          InsOptions ins;
-          ins.mode = modes[k / 2].second;
-          ins.source_attitude = problem.source_attitude;
-          ins.target_attitude = problem.target_attitude;
-          ins.attitude_std = kAttitudeStd;
+          options.quatro.polish = k % 2 == 1;
+          options.ins.mode = modes[k / 2].second;
+          options.ins.source_attitude = problem.source_attitude;
+          options.ins.target_attitude = problem.target_attitude;
+          options.ins.attitude_std = kAttitudeStd;
           const PoseSummary summary =
-              SolveQuatroWithIns(matches.source, matches.target, options, ins);
+              RegisterMatches({matches.source, matches.target}, options)
+                  .solution;
           const std::size_t row = (k / 2 * num_true.size() + i) * 2 + k % 2;
           errors[row].push_back(
               summary.IsUsable()
