@@ -246,7 +246,7 @@ py::dict MethodDict() {
 std::string DescribeMethods(bool has_clouds) {
   std::string text;
   for (const Method& method : Methods()) {
-    if (!has_clouds && method.input == MethodInput::kClouds) continue;
+    if (!has_clouds && method.input != MethodInput::kMatches) continue;
     RegistrationOptions options;
     text += std::string("\nmethod=\"") + method.name + "\"  " +
             method.description + "\n" +

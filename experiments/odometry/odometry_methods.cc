@@ -38,8 +38,9 @@ constexpr Method kMethods[] = {
 
 std::vector<std::string> OdometryNames() {
   std::vector<std::string> names = OdometryMethodNames();
-  for (const MethodInput input :
-       {MethodInput::kMatches, MethodInput::kClouds}) {
+  for (const MethodInput input : {MethodInput::kMatches,
+                                  MethodInput::kMatchedClouds,
+                                  MethodInput::kClouds}) {
     for (const std::string& name : ExperimentMethodNames(input)) {
       if (!NeedsIns(name)) names.push_back(name);
     }

@@ -77,8 +77,9 @@ bool IsOneMethod(const std::string& name,
   }
   if (is_own || IsKnown(name)) return true;
   *error = "method = " + name + ", must be one of";
-  for (const MethodInput input :
-       {MethodInput::kMatches, MethodInput::kClouds}) {
+  for (const MethodInput input : {MethodInput::kMatches,
+                                  MethodInput::kMatchedClouds,
+                                  MethodInput::kClouds}) {
     for (const auto& known : ExperimentMethodNames(input))
       *error += " " + known;
   }
@@ -91,9 +92,9 @@ bool IsOneMethod(const std::string& name,
 std::vector<std::string> ExperimentMethodNames(MethodInput input) {
   std::vector<std::string> names = MethodNames(input);
   for (const PeerMethod& method : PeerMethods()) {
-    if ((input == MethodInput::kMatches) == static_cast<bool>(method.make)) {
-      names.push_back(method.name);
-    }
+    const MethodInput its_input =
+        method.make ? MethodInput::kMatches : MethodInput::kClouds;
+    if (input == its_input) names.push_back(method.name);
   }
   return names;
 }
@@ -163,8 +164,9 @@ MatchSolver FindMatchSolver(const std::string& name,
                             const std::vector<OwnMethod>& own,
                             std::string* error) {
   if (!IsOneMethod(name, own, error)) return nullptr;
-  const auto clouds = ExperimentMethodNames(MethodInput::kClouds);
-  if (std::find(clouds.begin(), clouds.end(), name) != clouds.end()) {
+  const auto known = ExperimentMethodNames(MethodInput::kMatches);
+  if (!HasName(own, name) &&
+      std::find(known.begin(), known.end(), name) == known.end()) {
     *error = "method " + name + " works on clouds, not on matches";
     return nullptr;
   }

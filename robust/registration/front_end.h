@@ -17,6 +17,7 @@
 
 #include "features/base/stopwatch.h"
 #include "features/base/types.h"
+#include "features/described_cloud.h"
 #include "features/fpfh.h"
 #include "features/io/point_cloud.h"
 #include "features/kd_tree.h"

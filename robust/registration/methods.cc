@@ -137,7 +137,7 @@ constexpr Method kMethods[] = {
      LimitIterations<10'000>},
     {"quatro_c2f",
      "quatro, then G-ICP from its pose",
-     kMatches,
+     kMatchedClouds,
      kRefused,
      QuatroOptionList,
      kMakeQuatro,

@@ -20,8 +20,9 @@ namespace quatro {
 
 // What a method works on.
 enum class MethodInput {
-  kMatches,  // Matched points, from clouds by way of the front end.
-  kClouds,   // Two clouds and a guess: local registration.
+  kMatches,        // Matched points, of clouds or by themselves.
+  kMatchedClouds,  // Matched points and the clouds that they come from.
+  kClouds,         // Two clouds and a guess: local registration.
 };
 
 // Whether a method can use the attitudes of an INS: those that estimate roll
@@ -38,7 +39,7 @@ struct Method {
   // The options that this method reads; any other is an error.
   OptionList (*options)(RegistrationOptions* options);
 
-  // The solver, for kMatches; `options` with shared values.
+  // The solver, null for kClouds; `options` with shared values.
   PoseSolver (*make)(const RegistrationOptions& options);
 
   // Sets what makes the method another than that it builds on, e.g. the number

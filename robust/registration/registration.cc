@@ -10,6 +10,7 @@
 #include "robust/registration/local_registration.h"
 #include "robust/registration/methods.h"
 #include "robust/verdict/summary_covariance.h"
+#include "solvers/closed_form/valid_matches.h"
 
 namespace quatro {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 struct Prepared {
   RegistrationOptions options;
   PoseSolver solver;
+  bool works_on_matches = true;
 };
 
 bool Prepare(const RegistrationOptions& options,
@@ -35,6 +37,7 @@ bool Prepare(const RegistrationOptions& options,
   if (!method || !CanUseIns(*method, options.ins, error)) return false;
   if (method->adjust) method->adjust(&prepared->options);
   if (method->make) prepared->solver = method->make(prepared->options);
+  prepared->works_on_matches = method->input == MethodInput::kMatches;
   return true;
 }
 
@@ -225,7 +228,7 @@ RegistrationSummary RegisterMatches(const Matches& matches,
   RegistrationSummary summary;
   Prepared prepared;
   if (!Prepare(options, &prepared, &summary.error)) return summary;
-  if (!prepared.solver) {
+  if (!prepared.works_on_matches) {
     summary.error =
         "method " + options.method + " works on clouds, not on matches";
     return summary;

@@ -86,8 +86,7 @@ TEST(MakePreset, IndoorIsKittiAtAThird) {
               1e-12);
   EXPECT_NEAR(
       indoor->front_end.fpfh_radius, kitti->front_end.fpfh_radius / 3.0, 1e-12);
-  EXPECT_NEAR(
-      indoor->noise_bound, kitti->noise_bound / 3.0, 1e-12);
+  EXPECT_NEAR(indoor->noise_bound, kitti->noise_bound / 3.0, 1e-12);
 }
 
 // A street corner of 16 m.

@@ -10,6 +10,7 @@
 
 #include "robust/registration/registration.h"
 #include "tests/support/alignment_problems.h"
+#include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -22,11 +23,14 @@ constexpr RefinementMethod kMethods[] = {
 
 struct Prepared {
   explicit Prepared(const Points& points)
-      : tree(points), normals(EstimateNearestNormals(tree, 20, 1)) {}
-  DescribedCloud cloud() const { return {tree, normals}; }
+      : tree(points),
+        normals(EstimateNearestNormals(tree, 20, 1)),
+        described(MakeDescribedCloud(points, normals)) {}
+  const DescribedCloud& cloud() const { return described; }
 
   KdTree tree;
   Points normals;
+  DescribedCloud described;
 };
 
 class RefinementTest : public ::testing::Test {

@@ -376,8 +376,7 @@ TEST(RegistrationOptions, ErrorNamesTheFieldAndNothingIsTried) {
   expect_error([](Options o) { o->front_end.fpfh_radius = kInfinity; },
                "fpfh_radius = inf, must be <= 100 voxel_size = 30");
   expect_error([](Options o) { o->front_end.tuple.scale = 1.0; }, "scale = 1");
-  expect_error([](Options o) { o->noise_bound = 0.0; },
-               "noise_bound = 0");
+  expect_error([](Options o) { o->noise_bound = 0.0; }, "noise_bound = 0");
   expect_error([](Options o) { o->quatro.gnc.max_num_iterations = 0; },
                "max_num_iterations = 0");
   expect_error([](Options o) { o->verdict.min_probability = 2.0; },

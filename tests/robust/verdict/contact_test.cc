@@ -10,7 +10,9 @@
 #include <cstdint>
 
 #include "features/kd_tree.h"
+#include "robust/verdict/overlap.h"
 #include "solvers/closed_form/gravity.h"
+#include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -27,10 +29,10 @@ class ContactTest : public ::testing::Test {
   }
 
   DescribedCloud source() const {
-    return {Eigen::Vector3d::Zero(), source_tree_, source_normals_};
+    return MakeDescribedCloud(source_tree_.points(), source_normals_);
   }
   DescribedCloud target() const {
-    return {Eigen::Vector3d::Zero(), target_tree_, target_normals_};
+    return MakeDescribedCloud(target_tree_.points(), target_normals_);
   }
 
   const Rigid3 pose_{RotationZ(0.5), {0.3, -0.2, 0.1}};
@@ -75,9 +77,7 @@ TEST_F(ContactTest, OfTheTargetAreThoseOfTheInverse) {
 }
 
 TEST_F(ContactTest, OfCloudsWithoutPointsAreNone) {
-  const KdTree none(Points(3, 0));
-  const Points no_normals(3, 0);
-  const DescribedCloud empty{Eigen::Vector3d::Zero(), none, no_normals};
+  const DescribedCloud empty = MakeDescribedCloud(Points(3, 0), Points(3, 0));
   EXPECT_TRUE(FindContacts(empty, target(), pose_, kMaxDistance, 1).empty());
   EXPECT_EQ(FindContacts(source(), empty, pose_, kMaxDistance, 1),
             Contacts(400, kNoContact));

@@ -8,10 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "features/kd_tree.h"
+#include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -38,14 +39,9 @@ std::vector<Wall> Join(std::vector<Wall> a, const std::vector<Wall>& b) {
   return a;
 }
 
-struct Scan {
-  Eigen::Vector3d sensor;
-  KdTree tree;
-  Points normals;
-  bool is_scan = true;
+using Scan = DescribedCloud;
 
-  operator DescribedCloud() const { return {sensor, tree, normals, is_scan}; }
-};
+constexpr double kVoxelSize = 0.3;  // [m]
 
 // Points within max_range of the sensor, 12 per square meter of walls 3 m high,
 // in the frame of the sensor, which is rotated by `yaw`.
@@ -78,7 +74,7 @@ Scan MakeScan(const std::vector<Wall>& walls,
     all.col(static_cast<Eigen::Index>(i)) = points[i];
     all_normals.col(static_cast<Eigen::Index>(i)) = normals[i];
   }
-  return {Eigen::Vector3d::Zero(), KdTree(all), all_normals};
+  return MakeDescribedCloud(all, all_normals);
 }
 
 // Two scans from different places.
@@ -106,12 +102,32 @@ struct ScanPair {
   Scan target;
 };
 
+std::optional<GeometricEvidence> MeasureWith(const EvidenceOptions& options,
+                                             const DescribedCloud& source,
+                                             const DescribedCloud& target,
+                                             const Rigid3& target_from_source,
+                                             int num_threads = 1) {
+  const MutualContacts contacts =
+      FindMutualContacts(source,
+                         target,
+                         target_from_source,
+                         options.MaxDistance(kVoxelSize),
+                         num_threads);
+  return MeasureGeometricEvidence(source,
+                                  target,
+                                  target_from_source,
+                                  contacts,
+                                  kVoxelSize,
+                                  options,
+                                  num_threads);
+}
+
 GeometricEvidence Measure(const DescribedCloud& source,
                           const DescribedCloud& target,
                           const Rigid3& target_from_source,
                           int num_threads = 1) {
-  const auto evidence = MeasureGeometricEvidence(
-      source, target, target_from_source, EvidenceOptions(), num_threads);
+  const auto evidence = MeasureWith(
+      EvidenceOptions(), source, target, target_from_source, num_threads);
   EXPECT_TRUE(evidence.has_value());
   return evidence.value_or(GeometricEvidence());
 }
@@ -208,8 +224,8 @@ TEST(GeometricEvidence, RivalIsDisplaced) {
   const ScanPair pair(Corridor());
   EvidenceOptions options;
   options.rival.min_shift = 5.0;
-  const auto evidence = MeasureGeometricEvidence(
-      pair.source, pair.target, pair.target_from_source, options, 1);
+  const auto evidence =
+      MeasureWith(options, pair.source, pair.target, pair.target_from_source);
   ASSERT_TRUE(evidence.has_value());
   if (std::abs(evidence->rival.yaw) < 10.0 * M_PI / 180.0) {
     EXPECT_GT(evidence->rival.shift.head<2>().norm(), 5.0);
@@ -225,8 +241,8 @@ TEST(GeometricEvidence, PillarsCanBeSlidByTheirDistance) {
   // Only for shifts: a rotation by 180 deg is another symmetry.
   EvidenceOptions options;
   const ScanPair pair(pillars);
-  const auto evidence = MeasureGeometricEvidence(
-      pair.source, pair.target, pair.target_from_source, options, 1);
+  const auto evidence =
+      MeasureWith(options, pair.source, pair.target, pair.target_from_source);
   ASSERT_TRUE(evidence.has_value());
   EXPECT_LT(evidence->Distinctness(), 0.1);
   EXPECT_GT(evidence->structure_overlap, 0.8);
@@ -317,11 +333,16 @@ TEST(GeometricEvidence, FreeSpaceIsUnknownIfNeitherIsAScan) {
   EXPECT_EQ(none.structure_overlap, one.structure_overlap);
 }
 
-TEST(GeometricEvidence, OverlapIsThatOfMeasureStructureOverlap) {
+TEST(GeometricEvidence, OverlapIsTheSmallerShare) {
   const ScanPair pair(FurnishedRoom());
-  EXPECT_EQ(Measure(pair).structure_overlap,
-            MeasureStructureOverlap(
-                pair.source, pair.target, pair.target_from_source, 0.5, 1));
+  const auto share = [](const Scan& a, const Scan& b, const Rigid3& b_from_a) {
+    return *OverlapShare(FindStructure(a, b, b_from_a, 0.5, 1));
+  };
+  EXPECT_EQ(
+      Measure(pair).structure_overlap,
+      std::min(
+          share(pair.source, pair.target, pair.target_from_source),
+          share(pair.target, pair.source, Inverse(pair.target_from_source))));
 }
 
 TEST(GeometricEvidence, SwappingSourceAndTargetKeepsIt) {
@@ -354,9 +375,9 @@ TEST(GeometricEvidence, FrameOfACloudDoesNotMatter) {
   const GeometricEvidence expected = Measure(pair);
   for (const double yaw : {0.3, 2.0, -2.5}) {
     const Rigid3 motion{RotationZ(yaw), {300.0, -70.0, 20.0}};
-    const Scan moved{motion * pair.source.sensor,
-                     KdTree(motion.Apply(pair.source.tree.points())),
-                     motion.rotation * pair.source.normals};
+    const Scan moved = MakeDescribedCloud(motion.Apply(pair.source.points()),
+                                          motion.rotation * pair.source.normals,
+                                          motion * pair.source.sensor);
     const GeometricEvidence evidence =
         Measure(moved, pair.target, pair.target_from_source * Inverse(motion));
     EXPECT_NEAR(evidence.structure_overlap, expected.structure_overlap, 2e-3);
@@ -390,21 +411,20 @@ TEST(GeometricEvidence, NumberOfThreadsDoesNotMatterBitForBit) {
 
 TEST(GeometricEvidence, OfNothingIsNone) {
   const ScanPair pair(FurnishedRoom());
-  const Scan empty{Eigen::Vector3d::Zero(), KdTree(Points(3, 0)), Points(3, 0)};
+  const Scan empty = MakeDescribedCloud(Points(3, 0), Points(3, 0));
   const Scan tiny = MakeScan({{{1, 0}, {2, 0}}}, {0, 0, 1}, 0.0, 25.0, 1);
-  ASSERT_GT(tiny.tree.points().cols(), 0);
-  const auto expect_none = [](const DescribedCloud& a, const DescribedCloud& b) {
-    EXPECT_FALSE(
-        MeasureGeometricEvidence(a, b, Rigid3(), EvidenceOptions(), 1));
-    EXPECT_FALSE(
-        MeasureGeometricEvidence(b, a, Rigid3(), EvidenceOptions(), 1));
+  ASSERT_GT(tiny.points().cols(), 0);
+  const auto expect_none = [](const DescribedCloud& a,
+                              const DescribedCloud& b) {
+    EXPECT_FALSE(MeasureWith(EvidenceOptions(), a, b, Rigid3()));
+    EXPECT_FALSE(MeasureWith(EvidenceOptions(), b, a, Rigid3()));
   };
   expect_none(empty, empty);
   expect_none(empty, pair.target);
   expect_none(tiny, pair.target);
   // No overlap if the scans share no space.
-  EXPECT_FALSE(MeasureGeometricEvidence(
-      pair.source, pair.target, Shift(1e4, 0.0), EvidenceOptions(), 1));
+  EXPECT_FALSE(MeasureWith(
+      EvidenceOptions(), pair.source, pair.target, Shift(1e4, 0.0)));
 }
 
 TEST(GeometricEvidence, OfExtremeCloudsIsFinite) {
@@ -420,16 +440,16 @@ TEST(GeometricEvidence, OfExtremeCloudsIsFinite) {
   const Points upright = Eigen::Vector3d::UnitX().replicate(1, 100);
   // One point repeated a hundred times, at the sensor and elsewhere.
   for (const double x : {0.0, 5.0}) {
-    expect_finite(Scan{Eigen::Vector3d::Zero(),
-                       KdTree(Eigen::Vector3d(x, 0, 0).replicate(1, 100)),
-                       upright});
+    expect_finite(MakeDescribedCloud(Eigen::Vector3d(x, 0, 0).replicate(1, 100),
+                                     upright));
   }
   // A wide cloud far from the origin.
   const Points normal = RandomPoints(100, 1.0, /*seed=*/3);
-  expect_finite(Scan{{1e7, 1e7, 0.0},
-                     KdTree(normal.colwise() + Eigen::Vector3d(1e7, 1e7, 0.0)),
-                     upright});
-  expect_finite(Scan{Eigen::Vector3d::Zero(), KdTree(1e7 * normal), upright});
+  expect_finite(
+      MakeDescribedCloud(normal.colwise() + Eigen::Vector3d(1e7, 1e7, 0.0),
+                         upright,
+                         {1e7, 1e7, 0.0}));
+  expect_finite(MakeDescribedCloud(1e7 * normal, upright));
 }
 
 TEST(EvidenceOptions, ErrorNamesTheField) {
@@ -442,7 +462,6 @@ TEST(EvidenceOptions, ErrorNamesTheField) {
     EXPECT_THAT(error, HasSubstr(field));
   };
   using Options = EvidenceOptions*;
-  expect_error([](Options o) { o->voxel_size = 0.0; }, "voxel_size = 0");
   expect_error([](Options o) { o->max_distance_in_voxels = NAN; },
                "max_distance_in_voxels = nan");
   expect_error([](Options o) { o->rival.min_shift = 0.0; }, "min_shift = 0");

@@ -18,6 +18,7 @@
 #include "solvers/local/icp.h"
 #include "solvers/local/vgicp.h"
 #include "tests/support/alignment_problems.h"
+#include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -54,11 +55,14 @@ AlignmentSummary Solve(Method method,
 // A cloud, its tree and its normals.
 struct Prepared {
   explicit Prepared(const Points& points)
-      : tree(points), normals(EstimateNearestNormals(tree, 20, 1)) {}
-  DescribedCloud cloud() const { return {tree, normals}; }
+      : tree(points),
+        normals(EstimateNearestNormals(tree, 20, 1)),
+        described(MakeDescribedCloud(points, normals)) {}
+  const DescribedCloud& cloud() const { return described; }
 
   KdTree tree;
   Points normals;
+  DescribedCloud described;
 };
 
 std::unique_ptr<AlignmentTerms> MakeTerms(Method method,
