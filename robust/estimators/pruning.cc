@@ -40,7 +40,7 @@ std::vector<Eigen::Index> FindConsistent(const DistinctMatches& matches,
     vertices = FindMaxCore(graph);
     // Without edges every vertex is in the core, but no two are consistent.
     if (!vertices.empty() && graph.Degree(vertices.front()) == 0) {
-      vertices.resize(1);
+      vertices.erase(vertices.begin() + 1, vertices.end());
     }
   } else {
     vertices = FindCliqueGreedily(graph);
