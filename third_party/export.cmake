@@ -6,6 +6,7 @@
 set(QUATRO_EXPORTED features solvers robust)
 
 configure_file(third_party/version.h.in include/quatro/version.h @ONLY)
+configure_file(third_party/quatro.h.in include/quatro/quatro.h @ONLY)
 foreach(folder IN LISTS QUATRO_EXPORTED)
   file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}"
        "${PROJECT_BINARY_DIR}/include/quatro/${folder}" SYMBOLIC)
@@ -32,7 +33,8 @@ install(EXPORT quatro FILE quatro-targets.cmake NAMESPACE quatro::
 install(DIRECTORY ${QUATRO_EXPORTED}
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quatro" COMPONENT quatro_development
         FILES_MATCHING PATTERN "*.h")
-install(FILES "${PROJECT_BINARY_DIR}/include/quatro/version.h"
+install(FILES "${PROJECT_BINARY_DIR}/include/quatro/quatro.h"
+              "${PROJECT_BINARY_DIR}/include/quatro/version.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quatro" COMPONENT quatro_development)
 
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" QUATRO_EIGEN_VERSION "${Eigen3_VERSION}")

@@ -11,6 +11,8 @@
 #ifndef QUATRO_ROBUST_REGISTRATION_REGISTRATION_H_
 #define QUATRO_ROBUST_REGISTRATION_REGISTRATION_H_
 
+#include <utility>
+
 #include "features/base/types.h"
 #include "features/io/point_cloud.h"
 #include "robust/registration/front_end.h"
@@ -35,6 +37,21 @@ RegistrationSummary Register(const PointCloud& source,
 // and no refinement: the verdict rests on the matches alone.
 RegistrationSummary RegisterMatches(const Matches& matches,
                                     const RegistrationOptions& options);
+
+// Registers many sources against one target.
+class Target {
+ public:
+  Target(PointCloud cloud, RegistrationOptions options)
+      : cloud_(std::move(cloud)), options_(std::move(options)) {}
+
+  RegistrationSummary Register(const PointCloud& source) const {
+    return quatro::Register(source, cloud_, options_);
+  }
+
+ private:
+  PointCloud cloud_;
+  RegistrationOptions options_;
+};
 
 // The two halves of Register(), for running several methods on the same
 // matches: the front end, and all that follows.
