@@ -24,12 +24,12 @@ std::unique_ptr<Odometry> MakeSuma(int num_threads) {
 }
 
 // Described in experiments/programs/methods.cc.
-struct Method {
+struct OdometryEntry {
   const char* name;
   std::unique_ptr<Odometry> (*make)(int num_threads);
 };
 
-constexpr Method kMethods[] = {
+constexpr OdometryEntry kMethods[] = {
     {"aloam", MakeAloam},
     {"suma", MakeSuma},
 };
@@ -58,7 +58,7 @@ std::unique_ptr<Odometry> MakeOdometry(const std::string& name,
                                        const RegistrationOptions& registration,
                                        std::string* error) {
   if (!registration.IsValid(error)) return nullptr;
-  for (const Method& method : kMethods) {
+  for (const OdometryEntry& method : kMethods) {
     if (name == method.name) return method.make(registration.num_threads);
   }
   PairSolver solver;

@@ -3,9 +3,7 @@
 // A program of somebody else's: two generated scans of one place, the second
 // from elsewhere. Ends with 0 if the pose between them is found.
 
-#include <quatro/robust/registration/presets.h>
-#include <quatro/robust/registration/registration.h>
-#include <quatro/version.h>
+#include <quatro/quatro.h>
 
 #include <cmath>
 #include <iostream>
