@@ -34,15 +34,41 @@ void CheckIns(const py::dict& options, InsMode mode) {
     throw py::value_error(std::string(name) +
                           (mode == InsMode::kNone
                                ? " is given, but ins_mode is none"
-                               : " is missing, ins_mode needs it"));
+                               : " is missing, but ins_mode needs it"));
+  }
+}
+
+// A guess or a tilt without bounds would be ignored, and bounds are on a rigid
+// motion. Local registration starts from the guess.
+void CheckBounds(const py::dict& given,
+                 const Method& method,
+                 const RegistrationOptions& options) {
+  const PoseBounds& bounds = options.bounds;
+  const char* ignored = nullptr;
+  if (given.contains("guess") && method.input != MethodInput::kClouds) {
+    ignored = "guess";
+  } else if (given.contains("max_tilt_deg")) {
+    ignored = "max_tilt_deg";
+  }
+  if (ignored && !bounds.IsActive()) {
+    throw py::value_error(
+        std::string(ignored) +
+        " has no effect without other bounds: give max_translation or "
+        "max_yaw_deg");
+  }
+  if (bounds.IsActive() && options.teaser.estimate_scale) {
+    throw py::value_error(
+        "estimate_scale does not go with max_translation or max_yaw_deg");
   }
 }
 
 const Method& MethodOf(const std::string& name) {
-  std::string error;
-  const Method* method = FindMethod(name, &error);
-  if (method == nullptr) throw py::value_error(error);
-  return *method;
+  std::string names;
+  for (const Method& method : Methods()) {
+    if (name == method.name) return method;
+    names += (names.empty() ? "" : ", ") + std::string(method.name);
+  }
+  throw py::value_error("method = \"" + name + "\", must be one of " + names);
 }
 
 // Sets the options that are given, and checks all.
@@ -56,6 +82,7 @@ void Read(const Method& method,
         OptionsOf(method, has_clouds, options),
         function + "(method=\"" + method.name + "\")");
   CheckIns(given, options->ins.mode);
+  CheckBounds(given, method, *options);
   std::string error;
   if (!CanUseIns(method, options->ins, &error) || !options->IsValid(&error)) {
     throw py::value_error(error);
@@ -265,48 +292,51 @@ source, target: (N, 3) arrays of points [m] or Open3D point clouds; x ahead, z
   up, the sensor at the origin. Points that are not finite are left out.
 preset: kitti (64 beams outdoors), paper, kitti_paper or reference (as
   published), indoor (16 beams), or auto (from the clouds).
-method: how to solve, a key of quatro.methods().
+method: a key of quatro.methods(). Local registration by icp, gicp or vgicp starts
+  from guess=..., and is at best ambiguous.
 
 Returns a Registration; target_from_source moves points of the source onto the
 target, and is_registered says if it can be relied on. Raises ValueError for
-points and values that the library refuses, with its text, and TypeError for
-options that the method does not take. Other Python threads run meanwhile: do
-not change the arrays.
+points and values that the library rejects, with its message, and TypeError for
+options that the method does not have. Other Python threads run during the call:
+do not change the arrays.
 
-Options, all else by the preset:
+Options; the preset decides the others:
 )";
 
 constexpr char kSolve[] =
     R"(solve(source_points, target_points, method="quatro", preset="kitti", **options)
 --
 
-Finds the pose between matched points, most of them wrong.
+Finds the pose between matched points, most of which may be outliers.
 
 source_points, target_points: (N, 3) arrays [m], row i of one matched with row i
-  of the other. Float64 in rows is read as it lies, all else is copied.
-method: how to solve, a key of quatro.methods().
-preset: as of register(), but for auto.
+  of the other. Rows of float64 are read without a copy.
+method: a key of quatro.methods() that works on matches.
+preset: as for register(), except auto.
 
-Returns a Solution. Raises ValueError and TypeError as register() does, and other
-threads run as there.
+Returns a Solution. Raises ValueError and TypeError as register() does. Other
+Python threads run during the call.
 
-Options, all else by the preset:
+Options; the preset decides the others:
 )";
 
 constexpr char kAlign[] =
     R"(align(source, target, method="gicp", initial_target_from_source=None, **options)
 --
 
-Local alignment, from a pose that is nearly right.
+Local alignment, from a pose that is nearly correct.
 
 source, target: (N, 3) arrays of points [m] or Open3D point clouds, all finite.
-method: icp (point to point), gicp (plane to plane) or vgicp (plane to voxels').
+method: icp (point to point), gicp (plane to plane) or vgicp (plane to planes of
+  voxels).
 initial_target_from_source: (4, 4), or None for no motion.
 
-Returns an Alignment. Raises ValueError and TypeError as register() does, and other
-threads run as there.
+Returns an Alignment. Raises ValueError and TypeError as register() does. Other
+Python threads run during the call.
 
-Options (epsilon and num_neighbors not of icp, voxel_size of vgicp alone):
+Options (epsilon and num_neighbors only for gicp and vgicp, voxel_size only for
+vgicp):
 )";
 
 void BindFunctions(py::module_* module) {
@@ -346,12 +376,13 @@ void BindFunctions(py::module_* module) {
       "read_cloud(path, point_floats=0)\n--\n\n"
       "(N, 3) float64 of a .bin, .ply or .pcd file [m]; points that are "
       "not finite\nare left out. A point of a .bin has `point_floats` "
-      "numbers, x, y, z first; 0: told\nby the file. Raises ValueError "
+      "numbers, x, y, z first; 0 infers\nhow many. Raises ValueError "
       "with what is wrong with the file.");
   module->def("methods",
               &MethodDict,
               "methods()\n--\n\n"
-              "dict: estimators from matched points, and what each does.");
+              "dict: the methods and what each does. Those that work on "
+              "clouds are\nfor register() only.");
   module->def("presets",
               &PresetTuple,
               "presets()\n--\n\n"

@@ -83,7 +83,8 @@ class Setter {
   }
 
   void operator()(Rigid3* field) const {
-    *field = PoseArgument(py::reinterpret_borrow<py::object>(value_), name_);
+    *field =
+        PoseArgument(py::reinterpret_borrow<py::object>(value_), name_.c_str());
   }
 
   void operator()(const Choice& choice) const {

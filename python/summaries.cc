@@ -70,8 +70,8 @@ std::string Represent(const char* name, const Summary& summary) {
             Describe(*solution.target_from_source);
   }
   return text + ", matches=" + std::to_string(solution.num_matches) +
-         ", inliers=" + std::to_string(solution.num_translation_inliers) +
-         ": " + verdict.reason + ")";
+         ", inliers=" + std::to_string(verdict.num_inliers) + ": " +
+         verdict.reason + ")";
 }
 
 py::object CovarianceOf(const PoseSummary& solution) {
