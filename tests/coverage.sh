@@ -12,7 +12,7 @@ bash third_party/install.sh --coverage
 quatro_configure coverage build-coverage
 # Counters of the previous run would add up.
 find build-coverage -name '*.gcda' -delete
-mapfile -t targets < <(sed -nE 's/^quatro_test\(((features|solvers|robust)\/[a-z0-9_]+).*/\1_test/p' tests/CMakeLists.txt |
+mapfile -t targets < <(sed -nE 's/^quatro_test\(((features|solvers|robust)\/[a-z0-9_\/]+).*/\1_test/p' tests/CMakeLists.txt |
                        tr / _)
 quatro_build build-coverage "${targets[@]}"
 ctest --test-dir build-coverage -R '^(features|solvers|robust)/' -LE slow -j "$(quatro_jobs)" --output-on-failure
