@@ -83,8 +83,10 @@ class Setter {
   }
 
   void operator()(Rigid3* field) const {
-    *field =
-        PoseArgument(py::reinterpret_borrow<py::object>(value_), name_.c_str());
+    const auto array = py::array::ensure(value_);
+    if (!array) PyErr_Clear();
+    if (!array || array.dtype().kind() == 'O') Refuse("a (4, 4) array");
+    *field = PoseArgument(array, name_.c_str());
   }
 
   void operator()(const Choice& choice) const {
