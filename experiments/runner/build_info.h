@@ -10,7 +10,7 @@
 namespace quatro {
 
 struct BuildInfo {
-  std::string version;   // "0.1.0"
+  std::string version;   // "0.2.0"
   std::string commit;    // 12 digits, then "-dirty" if files differ from it;
                          // "unknown" if not built in a clone.
   std::string compiler;  // "gcc 12.2.0, Release"
