@@ -49,7 +49,7 @@ except ValueError as error:
 print(answer)
 print('%d and %d voxels, %d matches, %d inliers' %
       (answer.num_source_voxels, answer.num_target_voxels,
-       len(answer.matched_source), len(answer.inliers)))
+       len(answer.matched_source), answer.num_inliers))
 for stage, seconds in answer.stage_seconds.items():
     print('%-12s %8.1f ms' % (stage, 1e3 * seconds))
 
@@ -63,10 +63,6 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 def draw(axes, points, color, label):
     axes.scatter(points[:, 0], points[:, 1], s=0.2, c=color, label=label, linewidths=0)
-
-
-def moved(points, pose):
-    return points @ pose[:3, :3].T + pose[:3, 3]
 
 
 figure, (before, after) = plt.subplots(1, 2, figsize=(14, 7), sharex=True, sharey=True)
@@ -85,7 +81,7 @@ before.set_title('%d matches, %d inliers (green)' % (len(p), is_inlier.sum()))
 before.set_ylabel('y [m]')
 draw(after, target, 'tab:blue', 'target')
 if answer.target_from_source is not None:
-    draw(after, moved(source, answer.target_from_source), 'tab:orange', 'source')
+    draw(after, answer.transform(source), 'tab:orange', 'source')
 after.set_title('%s, probability %.2f' % (answer.status, answer.probability))
 after.legend(loc='upper right', markerscale=20)
 figure.tight_layout()
