@@ -10,7 +10,7 @@
 
 #include "experiments/simulator/synthetic.h"
 #include "features/base/stopwatch.h"
-#include "methods/closed_form/exact_yaw.h"
+#include "solvers/closed_form/exact_yaw.h"
 #include "robust/estimators/arc_consensus.h"
 #include "robust/gnc/gnc.h"
 #include "robust/gnc/quasi_so3.h"

@@ -143,6 +143,26 @@ def test_files_are_read_into_an_array_of_its_own(tmp_path):
         quatro.read_cloud(str(tmp_path / 'none.ply'))
 
 
+@pytest.mark.parametrize('point_floats', [3, 4, 5, 6, 8])
+def test_numbers_of_a_point_are_given_or_inferred(tmp_path, point_floats):
+    points = problems.scan(1, 1).astype(np.float32)
+    random = np.random.default_rng(1)
+    further = random.uniform(0, [255, 1, 64, 1e3, 3][:point_floats - 3],
+                             (len(points), point_floats - 3)).astype(np.float32)
+    path = tmp_path / 'scan.bin'
+    np.column_stack([points, further]).tofile(path)
+    assert np.array_equal(quatro.read_cloud(path, point_floats=point_floats), points)
+    assert np.array_equal(quatro.read_cloud(path, point_floats), points)
+    if point_floats != 8:
+        assert np.array_equal(quatro.read_cloud(path), points)
+    else:
+        with pytest.raises(ValueError, match='point_floats=%d' % point_floats):
+            quatro.read_cloud(path)
+    for wrong in (-1, 2, 65):
+        with pytest.raises(ValueError, match='point_floats = %d, must be' % wrong):
+            quatro.read_cloud(path, wrong)
+
+
 def test_names_of_files_may_be_any_but_for_nul(tmp_path):
     points = np.zeros((2, 4), np.float32)
     name = os.fsencode(tmp_path) + b'/latin\xff.bin'

@@ -19,18 +19,19 @@ def two_poses(seed):
     return np.vstack((few[0], many[0])), np.vstack((few[1], many[1]))
 
 
-@pytest.mark.parametrize('method', quatro.methods())
+@pytest.mark.parametrize('method', problems.MATCH_METHODS)
 def test_bounds_decide_between_two_poses(method):
     source, target = two_poses(1)
-    free = quatro.solve(source, target, method=method, noise_bound=0.1)
+    fixed = {'method': method, 'noise_bound': 0.1, **problems.needed(method)}
+    free = quatro.solve(source, target, **fixed)
     # FGR descends from no motion, and finds the pose that is nearer.
     assert np.allclose(free.target_from_source, FEW if method == 'fgr' else MANY, atol=0.1)
-    answer = quatro.solve(source, target, method=method, noise_bound=0.1, guess=np.eye(4),
-                          max_translation=4.0, max_yaw_deg=30.0)
+    answer = quatro.solve(source, target, **fixed, guess=np.eye(4), max_translation=4.0,
+                          max_yaw_deg=30.0)
     assert np.allclose(answer.target_from_source, FEW, atol=0.1)
     assert set(answer.inliers) == set(range(60))
-    answer = quatro.solve(source, target, method=method, noise_bound=0.1, guess=MANY,
-                          max_translation=4.0, max_yaw_deg=30.0)
+    answer = quatro.solve(source, target, **fixed, guess=MANY, max_translation=4.0,
+                          max_yaw_deg=30.0)
     assert np.allclose(answer.target_from_source, MANY, atol=0.1)
 
 
@@ -43,16 +44,32 @@ def test_bounds_without_a_pose_say_so():
         answer.transform(source)
 
 
+@pytest.mark.parametrize('method', problems.MATCH_METHODS)
+def test_bounds_have_an_effect(method):
+    source, target = two_poses(1)
+    for options in ({'guess': FEW}, {'max_tilt_deg': 1.0}, {'guess': FEW, 'max_yaw_deg': 180.0}):
+        with pytest.raises(ValueError, match='has no effect without other bounds: give '
+                                             'max_translation or max_yaw_deg'):
+            quatro.solve(source, target, method=method, **problems.needed(method), **options)
+
+
 def test_bounds_that_do_not_fit_are_refused():
     source, target = two_poses(1)
     for options, text in (({'guess': np.eye(4)}, 'guess has no effect'),
                           ({'max_translation': -1.0}, 'max_translation'),
                           ({'max_yaw_deg': 200.0}, 'max_yaw'),
-                          ({'guess': np.ones((4, 4)), 'max_yaw_deg': 5.0}, 'guess'),
+                          ({'guess': np.ones((4, 4)), 'max_yaw_deg': 5.0},
+                           'guess is not a rigid motion'),
+                          ({'guess': np.eye(3), 'max_yaw_deg': 5.0},
+                           r'guess has shape \(3, 3\), must be \(4, 4\)'),
                           ({'method': 'teaser', 'estimate_scale': True, 'max_yaw_deg': 5.0},
                            'estimate_scale')):
         with pytest.raises(ValueError, match=text):
             quatro.solve(source, target, **options)
+    # The scale without bounds, and bounds without the scale.
+    assert quatro.solve(source, target, method='teaser', estimate_scale=True).scale != 1.0
+    assert quatro.solve(source, target, method='teaser', estimate_scale=False, noise_bound=0.1,
+                        max_translation=4.0, max_yaw_deg=30.0).num_inliers == 60
 
 
 def test_points_are_moved():
@@ -61,5 +78,11 @@ def test_points_are_moved():
     pose = answer.target_from_source
     assert np.allclose(answer.transform(source), source @ pose[:3, :3].T + pose[:3, 3])
     assert np.allclose(answer.transform(source)[60:], target[60:], atol=0.2)
+    for points in ([[1, 2, 3]], np.zeros((0, 3)), source.astype(np.float32)):
+        moved = answer.transform(points)
+        assert moved.dtype == np.float64 and moved.shape == np.shape(points)
+        assert np.allclose(moved, problems.moved(pose, np.asarray(points, dtype=float)))
+    with pytest.raises(ValueError, match=r'^points has shape \(3,\), must be \(N, 3\)$'):
+        answer.transform(np.zeros(3))
     aligned = quatro.align(source, source, 'icp')
     assert np.allclose(aligned.transform(source), source, atol=1e-6)

@@ -20,20 +20,65 @@ TARGET = problems.moved(TRUTH, problems.scan(1, 2))
 FEW_SOURCE, FEW_TARGET = SOURCE[::4], TARGET[::4]
 
 
-@pytest.mark.parametrize('method', list(quatro.methods()))
+@pytest.mark.parametrize('method', problems.MATCH_METHODS + problems.REFINING_METHODS)
 def test_registers_two_scans_of_a_place(method):
-    answer = quatro.register(SOURCE, TARGET, method=method)
+    answer = quatro.register(SOURCE, TARGET, method=method, **problems.needed(method))
     meters, radians = problems.errors(answer.target_from_source, TRUTH)
     assert answer.is_registered and meters < 0.2 and radians < 0.02, answer
     assert answer.method == method
     assert 0 < answer.num_inliers <= len(answer.matched_source) <= answer.num_mutual_matches
+    assert answer.num_inliers == problems.num_inliers(
+        answer.target_from_source, answer.matched_source, answer.matched_target, 0.3)
+    assert answer.unobservable_directions == []
     assert answer.num_source_voxels < len(SOURCE)
     assert repr(answer).startswith('Registration(registered, %s, ' % method)
-    # The inliers are rows of what was matched.
+    # The inliers are rows of what was matched, and are those before a refinement.
+    pose = answer.target_from_source
+    if answer.refinement:
+        pose = answer.refinement['unrefined_target_from_source']
     distances = np.linalg.norm(
-        problems.moved(answer.target_from_source, answer.matched_source[answer.inliers]) -
+        problems.moved(pose, answer.matched_source[answer.inliers]) -
         answer.matched_target[answer.inliers], axis=1)
     assert (distances < 0.3 * np.sqrt(3) + 1e-9).all()
+    assert len(answer.inliers) == answer.num_translation_inliers
+
+
+@pytest.mark.parametrize('method', problems.LOCAL_METHODS)
+def test_local_registration_starts_from_the_guess(method):
+    answer = quatro.register(SOURCE, TARGET, method=method, guess=NEARLY)
+    meters, radians = problems.errors(answer.target_from_source, TRUTH)
+    assert meters < 0.1 and radians < 0.01, answer
+    # A guess is no evidence.
+    assert answer.status == 'ambiguous' and 'from the guess' in answer.reason
+    assert answer.method == method == answer.refinement['method']
+    assert np.array_equal(answer.refinement['unrefined_target_from_source'], NEARLY)
+    assert len(answer.matched_source) == answer.num_matches == answer.num_inliers == 0
+    assert repr(answer).startswith('Registration(ambiguous, %s, ' % method)
+    assert problems.errors(quatro.register(SOURCE, TARGET, method=method).target_from_source,
+                           TRUTH)[1] > 0.5
+    outside = quatro.register(FEW_SOURCE, FEW_TARGET, method=method, guess=NEARLY,
+                              max_translation=0.01)
+    assert outside.target_from_source is None and outside.status == 'insufficient'
+    with pytest.raises(ValueError, match='^max_tilt_deg has no effect without other bounds'):
+        quatro.register(SOURCE, TARGET, method=method, guess=NEARLY, max_tilt_deg=1.0)
+
+
+def test_coarse_to_fine_is_quatro_refined_by_gicp():
+    answer = quatro.register(SOURCE, TARGET, method='quatro_c2f')
+    refined = quatro.register(SOURCE, TARGET, refine='gicp')
+    assert np.array_equal(answer.target_from_source, refined.target_from_source)
+    assert answer.refinement['method'] == 'gicp' and answer.refinement['is_accepted']
+
+
+@pytest.mark.parametrize('method', problems.MATCH_METHODS)
+def test_solves_its_matches_to_the_same_pose(method):
+    options = {'method': method, **problems.needed(method)}
+    clouds = quatro.register(SOURCE, TARGET, **options)
+    matches = quatro.solve(clouds.matched_source, clouds.matched_target, **options)
+    for name in ('target_from_source', 'covariance', 'inliers', 'consistent', 'num_matches',
+                 'num_consistent', 'num_tims', 'num_rotation_inliers', 'num_translation_inliers',
+                 'num_inliers'):
+        assert np.array_equal(getattr(matches, name), getattr(clouds, name)), name
 
 
 def test_scans_of_two_places_are_not_registered():

@@ -4,6 +4,19 @@
 
 import numpy as np
 
+# Methods by what they work on. `solve` has the first, `register` has all.
+MATCH_METHODS = ['auto', 'quatro', 'quatro_exact', 'quatro_ins', 'arc_consensus', 'teaser',
+                 'fgr', 'ransac', 'ransac1k', 'ransac10k']
+REFINING_METHODS = ['quatro_c2f']
+LOCAL_METHODS = ['icp', 'gicp', 'vgicp']
+
+
+def needed(method):
+    """The options without which the method raises ValueError: an INS, here of level clouds."""
+    if method != 'quatro_ins':
+        return {}
+    return {'ins_mode': 'leveled', 'source_rpy': (0, 0, 0), 'target_rpy': (0, 0, 0)}
+
 
 def pose(yaw, translation, roll=0.0, pitch=0.0):
     """R_z R_y R_x and a translation, as (4, 4)."""
@@ -28,6 +41,11 @@ def errors(estimate, truth):
     sine = np.linalg.norm([skew[2, 1], skew[0, 2], skew[1, 0]])
     return (np.linalg.norm(difference[:3, 3]),
             np.arctan2(sine, np.trace(difference[:3, :3]) - 1.0))
+
+
+def num_inliers(matrix, source, target, noise_bound):
+    """Matches whose residual is within the bound on each axis."""
+    return (np.abs(target - moved(matrix, source)).max(axis=1) <= noise_bound).sum()
 
 
 def matches(seed, truth, num_true=60, num_wrong=60, noise=0.02):

@@ -18,18 +18,57 @@ import pytest
 import quatro
 
 TRUTH = problems.pose(2.0, (3, -4, 0.5))
-METHODS = ['quatro', 'quatro_exact', 'arc_consensus', 'teaser', 'fgr', 'ransac']
+METHODS = problems.MATCH_METHODS
+
+
+def solve(source, target, method, **options):
+    """With what the method needs."""
+    return quatro.solve(source, target, method, **{**problems.needed(method), **options})
 
 
 def test_methods_are_those_of_the_library():
-    assert list(quatro.methods()) == METHODS
+    assert list(quatro.methods()) == METHODS + problems.REFINING_METHODS + problems.LOCAL_METHODS
+    assert all(quatro.methods().values())
+
+
+@pytest.mark.parametrize('method', problems.REFINING_METHODS + problems.LOCAL_METHODS)
+def test_methods_of_clouds_are_not_for_matches(method):
+    source, target = problems.matches(1, TRUTH)
+    with pytest.raises(ValueError, match='^method %s works on clouds, not on matches$' % method):
+        solve(source, target, method)
+
+
+def test_quatro_ins_needs_an_ins():
+    source, target = problems.matches(1, TRUTH)
+    with pytest.raises(ValueError, match='^method quatro_ins needs an INS: set ins_mode'):
+        quatro.solve(source, target, method='quatro_ins')
+
+
+@pytest.mark.parametrize('num_wrong, method', [(60, 'quatro'), (19_941, 'arc_consensus')])
+def test_auto_chooses_by_the_number_of_matches(num_wrong, method):
+    source, target = problems.matches(1, TRUTH, 60, num_wrong)
+    chosen = quatro.solve(source, target, method='auto', noise_bound=0.1)
+    expected = solve(source, target, method, noise_bound=0.1)
+    assert np.array_equal(chosen.target_from_source, expected.target_from_source)
+    assert np.array_equal(chosen.consistent, expected.consistent)
+    assert chosen.num_tims == expected.num_tims
+
+
+@pytest.mark.parametrize('method, num', [('ransac1k', 1000), ('ransac10k', 10_000)])
+def test_ransac_of_a_number_of_samples(method, num):
+    source, target = problems.matches(1, TRUTH, 20, 180)
+    answer = solve(source, target, method, noise_bound=0.1)
+    expected = quatro.solve(source, target, method='ransac', noise_bound=0.1, max_iterations=num)
+    assert np.array_equal(answer.target_from_source, expected.target_from_source)
+    with pytest.raises(TypeError, match='has no option max_iterations'):
+        solve(source, target, method, max_iterations=1)
 
 
 @pytest.mark.parametrize('method', METHODS)
 @pytest.mark.parametrize('seed', [1, 2, 3])
 def test_finds_the_pose_among_wrong_matches(method, seed):
     source, target = problems.matches(seed, TRUTH)
-    answer = quatro.solve(source, target, method=method, noise_bound=0.1)
+    answer = solve(source, target, method, noise_bound=0.1)
     meters, radians = problems.errors(answer.target_from_source, TRUTH)
     assert answer.is_registered and answer.status == 'registered', answer
     assert answer.method == method
@@ -37,6 +76,15 @@ def test_finds_the_pose_among_wrong_matches(method, seed):
     assert np.isin(np.arange(60), answer.inliers).sum() > 50
     assert (answer.inliers >= 60).sum() <= 2
     assert answer.num_matches == 120
+    assert len(answer.inliers) == answer.num_translation_inliers
+    assert len(answer.consistent) == answer.num_consistent
+    assert 50 < answer.num_translation_inliers <= answer.num_consistent <= answer.num_matches
+    assert answer.num_inliers == problems.num_inliers(answer.target_from_source, source, target,
+                                                      0.1)
+    assert 'inliers=%d: ' % answer.num_inliers in repr(answer)
+    # Roll and pitch of a method that finds the yaw alone are assumed.
+    assert len(answer.unobservable_directions) == (2 if method == 'arc_consensus' else 0)
+    assert all('not estimated, assumed' in text for text in answer.unobservable_directions)
     assert answer.covariance.shape == (6, 6)
     assert np.allclose(answer.covariance, answer.covariance.T)
     assert (np.linalg.eigvalsh(answer.covariance) > 0).all()
@@ -46,8 +94,8 @@ def test_finds_the_pose_among_wrong_matches(method, seed):
 @pytest.mark.parametrize('method', METHODS)
 def test_swapped_matches_give_the_inverse(method):
     source, target = problems.matches(4, TRUTH)
-    there = quatro.solve(source, target, method=method, noise_bound=0.1)
-    back = quatro.solve(target, source, method=method, noise_bound=0.1)
+    there = solve(source, target, method, noise_bound=0.1)
+    back = solve(target, source, method, noise_bound=0.1)
     meters, radians = problems.errors(
         there.target_from_source @ back.target_from_source, np.eye(4))
     assert meters < 0.05 and radians < 0.005
@@ -56,8 +104,7 @@ def test_swapped_matches_give_the_inverse(method):
 @pytest.mark.parametrize('method', METHODS)
 def test_threads_do_not_matter_bit_for_bit(method):
     source, target = problems.matches(5, TRUTH)
-    poses = [quatro.solve(source, target, method=method, num_threads=n).target_from_source
-             for n in (0, 1, 3)]
+    poses = [solve(source, target, method, num_threads=n).target_from_source for n in (0, 1, 3)]
     assert np.array_equal(poses[0], poses[1]) and np.array_equal(poses[0], poses[2])
 
 
@@ -65,7 +112,7 @@ def test_threads_do_not_matter_bit_for_bit(method):
 @pytest.mark.parametrize('num', [0, 1, 2])
 def test_too_few_matches_are_no_registration(method, num):
     source, target = problems.matches(6, TRUTH, num, 0)
-    answer = quatro.solve(source, target, method=method)
+    answer = solve(source, target, method)
     assert not answer.is_registered
     assert answer.status in ('ambiguous', 'insufficient', 'degenerate')
     assert answer.reason
@@ -84,7 +131,7 @@ def test_collinear_matches_hold_no_full_rotation():
 def test_far_coordinates_keep_their_digits(method):
     far = problems.pose(2.0, (5e5, 5e6, 100))
     source, target = problems.matches(7, far, 60, 0)
-    answer = quatro.solve(source, target, method=method, noise_bound=0.1)
+    answer = solve(source, target, method, noise_bound=0.1)
     meters = np.linalg.norm(problems.moved(answer.target_from_source, source) - target, axis=1)
     assert answer.is_registered and np.median(meters) < 0.1
 
@@ -95,7 +142,7 @@ def test_matches_that_are_not_finite_are_refused(method, bad):
     source, target = problems.matches(8, TRUTH)
     target[3, 1] = bad
     with pytest.raises(ValueError, match='^a matched point is not finite$'):
-        quatro.solve(source, target, method=method)
+        solve(source, target, method)
 
 
 # The library's own words: noise_bound of each options' IsValid() and so on.
@@ -134,7 +181,7 @@ def test_matches_that_are_not_finite_are_refused(method, bad):
 def test_values_out_of_range_are_refused_in_the_librarys_words(method, options, text):
     source, target = problems.matches(9, TRUTH)
     with pytest.raises(ValueError) as error:
-        quatro.solve(source, target, method=method, **options)
+        solve(source, target, method, **options)
     assert str(error.value) == text
 
 
@@ -156,12 +203,13 @@ def test_every_option_refuses_a_value_of_another_type(method):
     assert len(options) > 6
     for option in options:
         with pytest.raises(TypeError, match='^%s = .*, must be ' % option):
-            quatro.solve(source, target, method=method, **{option: object()})
+            solve(source, target, method, **{option: object()})
 
 
 def test_names_that_are_not_known_are_refused():
     source, target = problems.matches(9, TRUTH)
-    with pytest.raises(ValueError, match='^method = "orb", must be one of quatro, quatro_exact'):
+    with pytest.raises(ValueError, match='^method = "orb", must be one of '
+                                         'auto, quatro, quatro_exact, .*, vgicp$'):
         quatro.solve(source, target, method='orb')
     with pytest.raises(ValueError, match='^preset = "auto", must be one of kitti, .*indoor$'):
         quatro.solve(source, target, preset='auto')
@@ -170,7 +218,7 @@ def test_names_that_are_not_known_are_refused():
                            ('quatro', 'voxel_size')]:
         with pytest.raises(TypeError, match=r'^solve\(method="%s"\) has no option %s, must be '
                                             'one of noise_bound' % (method, option)):
-            quatro.solve(source, target, method=method, **{option: 1})
+            solve(source, target, method, **{option: 1})
 
 
 def test_numbers_of_numpy_are_numbers():
@@ -196,7 +244,7 @@ def test_numbers_of_numpy_are_numbers():
 ])
 def test_options_arrive(method, options, fact):
     source, target = problems.matches(1, TRUTH)
-    assert fact(quatro.solve(source, target, method=method, **{'noise_bound': 0.1, **options}))
+    assert fact(solve(source, target, method, **{'noise_bound': 0.1, **options}))
 
 
 @pytest.mark.parametrize('method, few', [
@@ -208,8 +256,8 @@ def test_seeds_draw_differently(method, few):
     source, target = problems.matches(1, TRUTH)
 
     def answers():
-        return [str(quatro.solve(source, target, method=method, seed=seed, **few)
-                    .target_from_source) for seed in range(12)]
+        return [str(solve(source, target, method, seed=seed, **few).target_from_source)
+                for seed in range(12)]
 
     assert answers() == answers()
     assert len(set(answers())) > 1
@@ -230,7 +278,8 @@ def test_presets_are_the_librarys():
 
 
 @pytest.mark.parametrize('mode', ['leveled', 'fused', 'relative'])
-@pytest.mark.parametrize('method', ['quatro', 'quatro_exact', 'arc_consensus'])
+@pytest.mark.parametrize('method', ['auto', 'quatro', 'quatro_exact', 'quatro_ins',
+                                    'arc_consensus'])
 def test_ins_takes_the_tilt(mode, method):
     source_rpy, target_rpy = (0.1, -0.05, 0.3), (-0.12, 0.08, 2.3)
     world_from_source = problems.pose(source_rpy[2], (0, 0, 0), *source_rpy[:2])
@@ -239,9 +288,9 @@ def test_ins_takes_the_tilt(mode, method):
     truth[:3, 3] = (3, -4, 0.5)
     source, target = problems.matches(2, truth)
     polish = {} if method == 'arc_consensus' else {'polish': False}
-    plain = quatro.solve(source, target, method=method, noise_bound=0.15, **polish)
-    answer = quatro.solve(source, target, method=method, noise_bound=0.15, ins_mode=mode,
-                          source_rpy=source_rpy, target_rpy=target_rpy, **polish)
+    plain = solve(source, target, method, noise_bound=0.15, **polish)
+    answer = solve(source, target, method, noise_bound=0.15, ins_mode=mode,
+                   source_rpy=source_rpy, target_rpy=target_rpy, **polish)
     meters, radians = problems.errors(answer.target_from_source, truth)
     assert meters < 0.1 and radians < 0.01
     assert (plain.target_from_source is None or
@@ -256,15 +305,19 @@ def test_is_what_the_program_says_bit_for_bit(tmp_path):
     matches = tmp_path / 'matches.csv'
     np.savetxt(matches, np.hstack([source, target]), fmt='%.17g', delimiter=',')
     for method in METHODS:
-        name = 'ransac10k' if method == 'ransac' else method
-        run = subprocess.run([program, '--correspondences=%s' % matches, '--method=' + name,
-                              '--noise_bound=0.06', '--seed=5'],
+        ins = ['--ins_mode=leveled', '--source_rpy_deg=0,0,0', '--target_rpy_deg=0,0,0']
+        run = subprocess.run([program, '--correspondences=%s' % matches, '--method=' + method,
+                              '--noise_bound=0.06', '--seed=5',
+                              *(ins if problems.needed(method) else [])],
                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
         report = json.loads(run.stdout)
-        answer = quatro.solve(source, target, method=method, noise_bound=0.06, seed=5)
+        answer = solve(source, target, method, noise_bound=0.06, seed=5)
         assert np.array_equal(answer.target_from_source, report['target_from_source'])
         assert answer.probability == report['probability']
         assert answer.reason == report['reason']
+        assert len(answer.unobservable_directions) == len(report['unobservable_directions'])
+        assert {name: getattr(answer, 'num_' + name) for name in report['counts']} == (
+            report['counts'])
         assert np.array_equal(answer.covariance, report['covariance'])
 
 
@@ -327,7 +380,8 @@ def test_summaries_go_to_other_processes_as_dicts():
                  lambda: quatro.register(cloud, cloud, preset='auto'),
                  lambda: quatro.align(cloud, cloud, 'icp')):
         answer = make()
-        fields = [name for name in dir(answer) if not name.startswith('_') and name != 'as_dict']
+        fields = [name for name in dir(answer)
+                  if not name.startswith('_') and name not in ('as_dict', 'transform')]
         values = answer.as_dict()
         assert sorted(values) == sorted(fields)
         for name in fields:
