@@ -39,12 +39,14 @@ void DrawMatches(Points* source, Points* target) {
 RC_GTEST_PROP(MethodsProperty, WhatTheySayHoldsTogether, ()) {
   Points source, target;
   DrawMatches(&source, &target);
-  for (const std::string& name : MethodNames()) {
+  for (const std::string& name : ExperimentMethodNames(MethodInput::kMatches)) {
     if (NeedsIns(name)) continue;
     std::string error;
-    const PoseSolver solver = MakeSolver(name, QuatroOptions(), &error);
-    RC_ASSERT(static_cast<bool>(solver));
-    const PoseSummary summary = solver(source, target);
+    const MatchSolver solve = FindMatchSolver(name, {}, &error);
+    RC_ASSERT(static_cast<bool>(solve));
+    const RegistrationSummary registration = solve({source, target}, {});
+    RC_ASSERT(registration.error.empty());
+    const PoseSummary& summary = registration.solution;
     RC_LOG() << name << ": " << summary.message << "\n";
     const auto& pose = summary.target_from_source;
     RC_ASSERT(pose.has_value() ==

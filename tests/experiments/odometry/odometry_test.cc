@@ -371,17 +371,18 @@ TEST(FrameToFrameTest, AMethodFromCloudsIsGivenBothScansAndTheGuess) {
   const Rigid3 guess{RotationZ(0.1), {1.0, 2.0, 3.0}};
   RegistrationOptions options;
   options.seed = 7;
-  const FrameAligner aligner = MakeCloudAligner(
+  const FrameAligner aligner = MakeFrameAligner(
       [&](const PointCloud& given_source,
           const PointCloud& given_target,
-          const Rigid3& given_guess,
+          const MatchedClouds* matched,
           const RegistrationOptions& given) {
+        EXPECT_EQ(matched, nullptr);
         EXPECT_EQ(given_source.points, source.points);
         EXPECT_EQ(given_target.points, target.points);
         EXPECT_EQ(given.seed, 7u);
         RegistrationSummary summary;
         summary.verdict.reason = "as told";
-        summary.solution.target_from_source = given_guess;
+        summary.solution.target_from_source = given.bounds.guess;
         return summary;
       },
       options);

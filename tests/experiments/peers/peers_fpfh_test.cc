@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "experiments/programs/methods.h"
@@ -178,9 +179,11 @@ TEST_F(FpfhPeer, QuatroOnItsMatchesIsInTheRegistry) {
            "pcl_fpfh",
 #endif
        }) {
-    const CloudSolver solve = FindCloudSolver(name);
-    ASSERT_TRUE(solve) << name;
-    const RegistrationSummary theirs = solve(source, target, Rigid3(), options);
+    std::string error;
+    const PairSolver solve = FindPairSolver(name, {}, &error);
+    ASSERT_TRUE(solve) << error;
+    const RegistrationSummary theirs =
+        solve(source, target, /*matched=*/nullptr, options);
     ASSERT_TRUE(theirs.target_from_source()) << name;
     EXPECT_LE(LargestDisplacement(*theirs.target_from_source(),
                                   true_target_from_source,

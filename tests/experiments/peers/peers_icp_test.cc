@@ -183,7 +183,7 @@ TEST_P(IcpPeerTest, BadInputIsNoAnswer) {
 
 TEST_P(IcpPeerTest, IsInTheRegistry) {
   const std::string name = GetParam().name;
-  EXPECT_THAT(CloudMethodNames(),
+  EXPECT_THAT(ExperimentMethodNames(MethodInput::kClouds),
               ::testing::IsSupersetOf({name + "_icp", name + "_gicp"}));
   const Pair pair = MakePair(1);
   for (const RefinementMethod method :
@@ -192,13 +192,16 @@ TEST_P(IcpPeerTest, IsInTheRegistry) {
     PointCloud target;
     source.points = pair.source;
     target.points = pair.target;
-    const RegistrationSummary summary = FindCloudSolver(
-        name + "_" + RefinementName(method))(source, target, Rigid3(), {});
+    std::string error;
+    const PairSolver solve =
+        FindPairSolver(name + "_" + RefinementName(method), {}, &error);
+    ASSERT_TRUE(solve) << error;
+    const RegistrationSummary summary =
+        solve(source, target, /*matched=*/nullptr, {});
     ASSERT_TRUE(summary.target_from_source()) << summary.solution.message;
     EXPECT_EQ(summary.verdict.status, Status::kAmbiguous);
     RefinementOptions options;
     options.method = method;
-    std::string error;
     const AlignmentSummary direct =
         GetParam().align(*SampleVoxels(source.points, 0.3, &error),
                          *SampleVoxels(target.points, 0.3, &error),

@@ -114,7 +114,8 @@ TEST(PclPeer, RansacSaysWhenThereIsNoAnswer) {
 }
 
 TEST(PclPeer, RansacIsInTheRegistry) {
-  EXPECT_THAT(MethodNames(), ::testing::Contains("pcl_ransac"));
+  EXPECT_THAT(ExperimentMethodNames(MethodInput::kMatches),
+              ::testing::Contains("pcl_ransac"));
 }
 
 }  // namespace

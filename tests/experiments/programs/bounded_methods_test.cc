@@ -7,7 +7,6 @@
 #include <string>
 
 #include "experiments/programs/methods.h"
-#include "robust/estimators/bound_solver.h"
 #include "tests/support/two_poses.h"
 
 namespace quatro {
@@ -16,18 +15,16 @@ namespace {
 class BoundedMethods : public ::testing::TestWithParam<std::string> {
  protected:
   PoseSummary Solve(const TwoPoses& problem, const PoseBounds& bounds) {
-    InsOptions ins;
-    if (GetParam() == "quatro_ins") ins.mode = InsMode::kLeveled;
+    RegistrationOptions options;
+    if (NeedsIns(GetParam())) options.ins.mode = InsMode::kLeveled;
+    options.bounds = bounds;
     std::string error;
-    const QuatroOptions options;
-    const PoseSolver solver = MakeLevelSolver(GetParam(), options, ins, &error);
-    EXPECT_TRUE(solver) << error;
-    return SolveWithin(problem.source,
-                       problem.target,
-                       solver,
-                       options.noise_bound,
-                       ins,
-                       bounds);
+    const MatchSolver solve = FindMatchSolver(GetParam(), {}, &error);
+    EXPECT_TRUE(solve) << error;
+    const RegistrationSummary summary =
+        solve({problem.source, problem.target}, options);
+    EXPECT_EQ(summary.error, "");
+    return summary.solution;
   }
 };
 
@@ -60,11 +57,14 @@ TEST_P(BoundedMethods, TheBoundsDecideBetweenTwoPoses) {
 
 TEST_P(BoundedMethods, WithoutBoundsNothingChanges) {
   const TwoPoses problem = MakeTwoPoses(7);
+  // The estimator itself; level, it is the same with an INS.
+  RegistrationOptions options;
   std::string error;
-  InsOptions ins;
-  if (GetParam() == "quatro_ins") ins.mode = InsMode::kLeveled;
-  const PoseSolver plain = MakeSolver(GetParam(), QuatroOptions(), ins, &error);
-  const PoseSummary free = plain(problem.source, problem.target);
+  const Method* method = FindMethod(GetParam(), &error);
+  if (!method) GTEST_SKIP() << "a peer";
+  if (method->adjust) method->adjust(&options);
+  const PoseSummary free =
+      method->make(WithSharedValues(options))(problem.source, problem.target);
   PoseBounds only_a_guess;
   only_a_guess.guess = problem.few;
   const PoseSummary guessed = Solve(problem, only_a_guess);
@@ -74,10 +74,11 @@ TEST_P(BoundedMethods, WithoutBoundsNothingChanges) {
   EXPECT_EQ(free.translation_inliers, guessed.translation_inliers);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry,
-                         BoundedMethods,
-                         ::testing::ValuesIn(MethodNames()),
-                         [](const auto& method) { return method.param; });
+INSTANTIATE_TEST_SUITE_P(
+    Registry,
+    BoundedMethods,
+    ::testing::ValuesIn(ExperimentMethodNames(MethodInput::kMatches)),
+    [](const auto& method) { return method.param; });
 
 }  // namespace
 }  // namespace quatro

@@ -8,9 +8,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "experiments/programs/methods.h"
 #include "robust/verdict/verdict.h"
@@ -25,27 +23,25 @@ constexpr Eigen::Index kNumMatches = 60;
 constexpr Eigen::Index kNumFar = 12;
 constexpr double kNoiseBound = 0.3;
 
-// Those of the library: peers' programs are their authors'.
-std::vector<std::string> OwnMethodNames() {
-  std::vector<std::string> names = MethodNames();
-  std::erase_if(names, [](const std::string& name) {
-    return name.starts_with("open3d_") || name.starts_with("pcl_");
-  });
-  return names;
+// Of the library's methods: peers' programs are their authors'.
+RegistrationSummary Run(const std::string& name,
+                        const PointsRef& source,
+                        const PointsRef& target,
+                        double noise_bound) {
+  RegistrationOptions options;
+  options.method = name;
+  options.noise_bound = noise_bound;
+  if (NeedsIns(name)) options.ins.mode = InsMode::kFused;  // Level.
+  RegistrationSummary summary = RegisterMatches({source, target}, options);
+  EXPECT_EQ(summary.error, "");
+  return summary;
 }
 
 PoseSummary Solve(const std::string& name,
                   const PointsRef& source,
                   const PointsRef& target,
                   double noise_bound) {
-  QuatroOptions options;
-  options.noise_bound = noise_bound;
-  InsOptions ins;  // Level.
-  if (NeedsIns(name)) ins.mode = InsMode::kFused;
-  std::string error;
-  const PoseSolver solve = MakeSolver(name, options, ins, &error);
-  EXPECT_TRUE(solve) << error;
-  return solve(source, target);
+  return Run(name, source, target, noise_bound).solution;
 }
 
 // Inliers first, so that outliers can be replaced from the end.
@@ -63,10 +59,11 @@ double Difference(const Rigid3& a, const Rigid3& b) {
 
 class MethodInvariance : public ::testing::TestWithParam<std::string> {};
 
-INSTANTIATE_TEST_SUITE_P(,
-                         MethodInvariance,
-                         ::testing::ValuesIn(OwnMethodNames()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(
+    ,
+    MethodInvariance,
+    ::testing::ValuesIn(MethodNames(MethodInput::kMatches)),
+    [](const auto& info) { return info.param; });
 
 TEST_P(MethodInvariance, TheUnitOfLengthDoesNotMatter) {
   for (const double noise : {0.0, 0.05}) {
@@ -147,21 +144,22 @@ TEST_P(MethodInvariance, NeitherPoseNorVerdictKnowsOfAFltMax) {
   const Eigen::Index num_others = kNumMatches - 1;
   const Points source = problem.source.leftCols(num_others);
   const Points target = problem.target.leftCols(num_others);
-  const PoseSummary expected = Solve(GetParam(), source, target, kNoiseBound);
+  const RegistrationSummary registration =
+      Run(GetParam(), source, target, kNoiseBound);
+  const PoseSummary& expected = registration.solution;
   ASSERT_TRUE(expected.IsUsable()) << expected.message;
-  const Verdict verdict =
-      Judge(source, target, expected, kNoiseBound, std::nullopt, {});
+  const Verdict& verdict = registration.verdict;
 
   problem.source(0, num_others) = std::numeric_limits<float>::max();
-  const PoseSummary summary =
-      Solve(GetParam(), problem.source, problem.target, kNoiseBound);
+  const RegistrationSummary spoiled_registration =
+      Run(GetParam(), problem.source, problem.target, kNoiseBound);
+  const PoseSummary& summary = spoiled_registration.solution;
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
   EXPECT_EQ(summary.num_matches, num_others);
   EXPECT_EQ(summary.translation_inliers, expected.translation_inliers);
   EXPECT_EQ(summary.target_from_source->ToMatrix(),
             expected.target_from_source->ToMatrix());
-  const Verdict spoiled = Judge(
-      problem.source, problem.target, summary, kNoiseBound, std::nullopt, {});
+  const Verdict& spoiled = spoiled_registration.verdict;
   EXPECT_EQ(spoiled.probability, verdict.probability);
   EXPECT_EQ(spoiled.reason, verdict.reason);
 }

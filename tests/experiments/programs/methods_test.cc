@@ -7,31 +7,68 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "experiments/simulator/synthetic.h"
 #include "robust/estimators/arc_consensus.h"
 #include "robust/estimators/fgr.h"
 #include "robust/estimators/ransac.h"
 #include "robust/estimators/teaser.h"
+#include "tests/support/ins_solutions.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::Not;
 using ::testing::UnorderedElementsAre;
+
+constexpr MethodInput kInputs[] = {
+    MethodInput::kMatches, MethodInput::kMatchedClouds, MethodInput::kClouds};
+
+std::vector<std::string> MatchMethodNames() {
+  return ExperimentMethodNames(MethodInput::kMatches);
+}
+
+std::vector<std::string> CloudMethodNames() {
+  std::vector<std::string> names =
+      ExperimentMethodNames(MethodInput::kMatchedClouds);
+  for (const auto& name : ExperimentMethodNames(MethodInput::kClouds)) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+RegistrationSummary Run(const std::string& name,
+                        const MatchedProblem& problem,
+                        const RegistrationOptions& options) {
+  std::string error;
+  const MatchSolver solve = FindMatchSolver(name, {}, &error);
+  EXPECT_TRUE(solve) << name;
+  EXPECT_EQ(error, "");
+  return solve({problem.source, problem.target}, options);
+}
 
 PoseSummary Solve(const std::string& name,
                   const MatchedProblem& problem,
-                  const QuatroOptions& options = {}) {
+                  RegistrationOptions options = {}) {
+  if (NeedsIns(name)) options.ins.mode = InsMode::kLeveled;  // Level.
+  const RegistrationSummary summary = Run(name, problem, options);
+  EXPECT_EQ(summary.error, "") << name;
+  return summary.solution;
+}
+
+RegistrationSummary RegisterBy(const std::string& name,
+                               const PointCloud& source,
+                               const PointCloud& target,
+                               const RegistrationOptions& options) {
   std::string error;
-  InsOptions ins;  // Level.
-  if (name == "quatro_ins") ins.mode = InsMode::kLeveled;
-  const PoseSolver solve = MakeSolver(name, options, ins, &error);
-  EXPECT_TRUE(solve) << name;
-  EXPECT_EQ(error, "");
-  return solve(problem.source, problem.target);
+  const PairSolver solve = FindPairSolver(name, {}, &error);
+  EXPECT_TRUE(solve) << error;
+  return solve(source, target, /*matched=*/nullptr, options);
 }
 
 void ExpectSameBits(const PoseSummary& a, const PoseSummary& b) {
@@ -43,10 +80,13 @@ void ExpectSameBits(const PoseSummary& a, const PoseSummary& b) {
 TEST(Methods, EachTellsSizesThatDiffer) {
   MatchedProblem problem = MakeOutlierProblem(50, 0.5, 0.05, 1);
   problem.target.conservativeResize(3, 10);
-  for (const std::string& name : MethodNames()) {
-    const PoseSummary summary = Solve(name, problem);
-    EXPECT_EQ(summary.termination, PoseTermination::kInvalidInput) << name;
-    EXPECT_EQ(summary.message,
+  for (const std::string& name : MatchMethodNames()) {
+    RegistrationOptions options;
+    if (NeedsIns(name)) options.ins.mode = InsMode::kLeveled;
+    const RegistrationSummary summary = Run(name, problem, options);
+    EXPECT_EQ(summary.solution.termination, PoseTermination::kInvalidInput)
+        << name;
+    EXPECT_EQ(summary.error,
               "50 source points but 10 target points; equal numbers are "
               "required")
         << name;
@@ -54,7 +94,7 @@ TEST(Methods, EachTellsSizesThatDiffer) {
 }
 
 TEST(Methods, AllNamesResolveAndSolve) {
-  EXPECT_THAT(MethodNames(),
+  EXPECT_THAT(MatchMethodNames(),
               IsSupersetOf({"auto",
                             "quatro",
                             "quatro_exact",
@@ -64,7 +104,7 @@ TEST(Methods, AllNamesResolveAndSolve) {
                             "ransac1k",
                             "ransac10k"}));
   const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.05, 1);
-  for (const std::string& name : MethodNames()) {
+  for (const std::string& name : MatchMethodNames()) {
     const PoseSummary summary = Solve(name, problem);
     ASSERT_TRUE(summary.IsUsable()) << name << ": " << summary.message;
     EXPECT_LE((summary.target_from_source->translation -
@@ -100,73 +140,87 @@ TEST(Methods, AreTheSolversTheyAreNamedFor) {
 
 TEST(Methods, TakeWhatAppliesToThemFromTheOptions) {
   const MatchedProblem problem = MakeOutlierProblem(200, 0.5, 0.1, 3);
-  QuatroOptions options;
+  RegistrationOptions options;
   options.noise_bound = 0.05;  // Smaller than the noise.
-  for (const std::string& name : MethodNames()) {
+  for (const std::string& name : MatchMethodNames()) {
     EXPECT_LT(Solve(name, problem, options).num_translation_inliers,
               Solve(name, problem).num_translation_inliers)
         << name;
   }
   options = {};
-  options.crosscheck = true;
+  options.quatro.crosscheck = true;
+  options.teaser.crosscheck = true;
   EXPECT_TRUE(Solve("quatro", problem, options).crosscheck.has_value());
   EXPECT_TRUE(Solve("teaser", problem, options).crosscheck.has_value());
 }
 
 TEST(Methods, AnUnknownNameListsAll) {
   for (const char* name : {"", "Quatro", "Ransac"}) {
-    std::string error;
-    EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
-    EXPECT_THAT(error, HasSubstr("--method=" + std::string(name)));
-    for (const std::string& known : MethodNames()) {
-      EXPECT_THAT(error, HasSubstr(" " + known));
+    std::string error, pair_error;
+    EXPECT_FALSE(FindMatchSolver(name, {}, &error)) << name;
+    EXPECT_FALSE(FindPairSolver(name, {}, &pair_error)) << name;
+    EXPECT_EQ(error, pair_error);
+    EXPECT_THAT(error, HasSubstr("method = " + std::string(name)));
+    for (const MethodInput input : kInputs) {
+      for (const std::string& known : ExperimentMethodNames(input)) {
+        EXPECT_THAT(error, HasSubstr(" " + known));
+      }
     }
   }
 }
 
 TEST(Methods, QuatroInsNeedsAnIns) {
-  std::string error;
-  EXPECT_FALSE(MakeSolver("quatro_ins", {}, &error));
-  EXPECT_THAT(error, HasSubstr("needs an INS"));
-  EXPECT_THAT(error, HasSubstr("--source_rpy_deg"));
+  const MatchedProblem problem = MakeOutlierProblem(50, 0.5, 0.05, 1);
+  RegistrationOptions options;
+  RegistrationSummary summary = Run("quatro_ins", problem, options);
+  EXPECT_THAT(summary.error, HasSubstr("needs an INS"));
+  EXPECT_THAT(summary.error, HasSubstr("ins_mode"));
+  EXPECT_THAT(summary.error, HasSubstr("roll, pitch and yaw"));
+  EXPECT_FALSE(summary.target_from_source());
   // An axis has another meaning.
-  InsOptions ins;
-  ins.up = Eigen::Vector3d::UnitX();
-  EXPECT_FALSE(MakeSolver("quatro_ins", {}, ins, &error));
+  options.ins.up = Eigen::Vector3d::UnitX();
+  summary = Run("quatro_ins", problem, options);
+  EXPECT_THAT(summary.error, HasSubstr("needs an INS"));
+  EXPECT_FALSE(summary.target_from_source());
 }
 
 TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
   const SlopeProblem problem = MakeSlopeProblem(200, 0.5, 0.05, 0.2, 0.0, 1);
-  QuatroOptions options;
-  options.polish = false;
-  InsOptions ins;
-  ins.mode = InsMode::kLeveled;
-  ins.source_attitude = problem.source_attitude;
-  ins.target_attitude = problem.target_attitude;
-  for (const std::string& name : MethodNames()) {
-    std::string error;
-    const PoseSolver solve = MakeSolver(name, options, ins, &error);
-    const PoseSolver level = MakeLevelSolver(name, options, ins, &error);
-    ASSERT_EQ(static_cast<bool>(level), static_cast<bool>(solve)) << name;
+  const MatchedProblem& matches = problem.matches;
+  RegistrationOptions options;
+  options.quatro.polish = false;
+  options.ins.mode = InsMode::kLeveled;
+  options.ins.source_attitude = problem.source_attitude;
+  options.ins.target_attitude = problem.target_attitude;
+  for (const std::string& name : MatchMethodNames()) {
+    const RegistrationSummary registration = Run(name, matches, options);
     const bool is_about_the_vertical = name == "auto" ||
                                        name == "arc_consensus" ||
                                        name.rfind("quatro", 0) == 0;
     if (!is_about_the_vertical) {
-      EXPECT_FALSE(solve);
-      EXPECT_THAT(error, HasSubstr("--ins_mode needs one of --method=auto, "));
-      EXPECT_THAT(error, HasSubstr("not " + name));
+      EXPECT_FALSE(registration.target_from_source()) << name;
+      EXPECT_THAT(registration.error,
+                  HasSubstr("ins_mode needs one of the methods auto, "));
+      EXPECT_THAT(registration.error, HasSubstr("not " + name));
       continue;
     }
-    ASSERT_TRUE(solve) << error;
-    const MatchedProblem& matches = problem.matches;
-    const PoseSummary summary = solve(matches.source, matches.target);
+    ASSERT_EQ(registration.error, "") << name;
+    const PoseSummary& summary = registration.solution;
     ASSERT_TRUE(summary.IsUsable()) << name;
     EXPECT_LT(AngleBetween(summary.target_from_source->rotation,
                            matches.true_target_from_source.rotation),
               0.01)
         << name;
+    // The solver of level matches, as any other.
+    std::string error;
+    const Method* method = FindMethod(name, &error);
+    ASSERT_TRUE(method) << error;
+    RegistrationOptions adjusted = options;
+    if (method->adjust) method->adjust(&adjusted);
+    const PoseSolver level = method->make(WithSharedValues(adjusted));
     ExpectSameBits(
-        SolveWithIns(matches.source, matches.target, level, 0.3, ins), summary);
+        SolveWithIns(matches.source, matches.target, level, 0.3, options.ins),
+        summary);
   }
 }
 
@@ -174,16 +228,17 @@ TEST(Methods, OdometriesAreListedAndPointToTheirProgram) {
   EXPECT_THAT(OdometryMethodNames(), UnorderedElementsAre("aloam", "suma"));
   for (const std::string& name : OdometryMethodNames()) {
     EXPECT_THAT(DescribeMethods(), HasSubstr("\n" + name + " "));
-    std::string error;
-    EXPECT_FALSE(MakeSolver(name, {}, &error));
-    EXPECT_THAT(error, HasSubstr("--method=" + name + " is an odometry"));
+    std::string error, pair_error;
+    EXPECT_FALSE(FindMatchSolver(name, {}, &error));
+    EXPECT_THAT(error, HasSubstr("method " + name + " is an odometry"));
     EXPECT_THAT(error, HasSubstr("quatro_odometry"));
-    EXPECT_FALSE(FindCloudSolver(name));
+    EXPECT_FALSE(FindPairSolver(name, {}, &pair_error));
+    EXPECT_EQ(pair_error, error);
   }
   // Methods that are not built are not listed.
   std::string error;
-  EXPECT_FALSE(MakeSolver("nothing", {}, &error));
-  EXPECT_THAT(error, ::testing::Not(HasSubstr("suma")));
+  EXPECT_FALSE(FindMatchSolver("nothing", {}, &error));
+  EXPECT_THAT(error, Not(HasSubstr("suma")));
 }
 
 TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
@@ -191,15 +246,41 @@ TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
               IsSupersetOf({"quatro_c2f", "icp", "gicp", "vgicp"}));
   for (const std::string& name : CloudMethodNames()) {
     std::string error;
-    EXPECT_FALSE(MakeSolver(name, {}, &error)) << name;
+    EXPECT_FALSE(FindMatchSolver(name, {}, &error)) << name;
     EXPECT_THAT(error, HasSubstr(name + " works on clouds, not on matches"));
-    EXPECT_TRUE(FindCloudSolver(name)) << name;
+    EXPECT_TRUE(FindPairSolver(name, {}, &error)) << name;
     EXPECT_THAT(DescribeMethods(), HasSubstr(name + " ")) << name;
   }
-  for (const std::string& name : MethodNames()) {
-    EXPECT_FALSE(FindCloudSolver(name)) << name;
+  // Those of matches run on clouds, too, but need none.
+  for (const std::string& name : MatchMethodNames()) {
+    std::string error;
+    EXPECT_TRUE(FindMatchSolver(name, {}, &error)) << error;
+    EXPECT_TRUE(FindPairSolver(name, {}, &error)) << error;
+    EXPECT_THAT(CloudMethodNames(), Not(Contains(name)));
   }
-  EXPECT_FALSE(FindCloudSolver("nothing"));
+  std::string error;
+  EXPECT_FALSE(FindPairSolver("nothing", {}, &error));
+}
+
+// Neither of the doors takes what it cannot use.
+TEST(Methods, ThoseOfCloudsSayWhatTheyMiss) {
+  const MatchedProblem problem = MakeOutlierProblem(50, 0.0, 0.05, 1);
+  for (const MethodInput input :
+       {MethodInput::kMatchedClouds, MethodInput::kClouds}) {
+    for (const std::string& name : MethodNames(input)) {
+      RegistrationOptions options;
+      options.method = name;
+      RegistrationSummary summary =
+          RegisterMatches({problem.source, problem.target}, options);
+      EXPECT_THAT(summary.error,
+                  HasSubstr(name + " works on clouds, not on matches"));
+      EXPECT_FALSE(summary.target_from_source());
+      if (input != MethodInput::kClouds) continue;
+      summary = RegisterMatched(MatchedClouds(), options);
+      EXPECT_THAT(summary.error,
+                  HasSubstr(name + " needs the clouds themselves"));
+    }
+  }
 }
 
 // Quatro on matches of another library's descriptors.
@@ -218,7 +299,7 @@ TEST(Methods, OfCloudsAreWhatTheyAreNamedFor) {
   RegistrationOptions options;
   for (const std::string& name : CloudMethodNames()) {
     const RegistrationSummary summary =
-        FindCloudSolver(name)(source, target, Rigid3(), options);
+        RegisterBy(name, source, target, options);
     EXPECT_EQ(summary.refinement.has_value(), !IsFrontEnd(name))
         << name << summary.error;
     if (summary.refinement) {
@@ -241,10 +322,11 @@ TEST(Methods, LocalOnesStartFromTheGuess) {
   PointCloud cloud;
   cloud.points = RandomStreet(3000, 0.01, 1);
   const Rigid3 guess{RotationZ(0.02), {0.2, 0.1, 0.0}};
+  RegistrationOptions options;
+  options.bounds.guess = guess;
   for (const std::string& name : CloudMethodNames()) {
     if (IsGlobal(name)) continue;
-    const RegistrationSummary summary =
-        FindCloudSolver(name)(cloud, cloud, guess, {});
+    const RegistrationSummary summary = RegisterBy(name, cloud, cloud, options);
     ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
     EXPECT_EQ(summary.refinement->unrefined_target_from_source.ToMatrix(),
               guess.ToMatrix());
@@ -253,16 +335,18 @@ TEST(Methods, LocalOnesStartFromTheGuess) {
 }
 
 TEST(Methods, RefinementsAreKnownByTheirNames) {
+  RegistrationOptions options;
+  const Option refine = RefinementOptionList(&options).front();
+  ASSERT_EQ(refine.name, "refine");
   for (const char* name : {"none", "icp", "gicp", "vgicp"}) {
-    RefinementMethod method{};
     std::string error;
-    ASSERT_TRUE(ParseRefinement(name, &method, &error)) << error;
-    EXPECT_STREQ(RefinementName(method), name);
+    ASSERT_TRUE(refine.Parse(name, &error)) << error;
+    EXPECT_STREQ(RefinementName(options.refinement.method), name);
   }
-  RefinementMethod method{};
   std::string error;
-  EXPECT_FALSE(ParseRefinement("GICP", &method, &error));
-  EXPECT_THAT(error, HasSubstr("--refine=GICP"));
+  EXPECT_FALSE(refine.Parse("GICP", &error));
+  EXPECT_THAT(
+      error, HasSubstr("refine = GICP, must be one of none, icp, gicp, vgicp"));
 }
 
 TEST(Methods, AutoTakesArcConsensusAboveTwentyThousandMatches) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "robust/estimators/quatro.h"
+#include "robust/registration/registration.h"
 #include "robust/verdict/verdict.h"
 #include "solvers/closed_form/gravity.h"
 #include "tests/support/two_poses.h"
@@ -26,6 +27,22 @@ PoseSolver Quatro() {
   return [](const PointsRef& source, const PointsRef& target) {
     return SolveQuatro(source, target, QuatroOptions());
   };
+}
+
+// Through the door: leveled, within bounds, and back.
+PoseSummary SolveWithin(const PointsRef& source,
+                        const PointsRef& target,
+                        const InsOptions& ins,
+                        const PoseBounds& bounds) {
+  RegistrationOptions options;
+  options.solver = Quatro();
+  options.noise_bound = kNoiseBound;
+  options.ins = ins;
+  options.bounds = bounds;
+  const RegistrationSummary summary =
+      RegisterMatches({source, target}, options);
+  EXPECT_EQ(summary.error, "");
+  return summary.solution;
 }
 
 PoseBounds Around(const Rigid3& guess) {
@@ -117,13 +134,11 @@ TEST(BoundSolver, BoundsAreOfTheGivenFramesWithAnIns) {
   truth.translation = target_from_level.rotation * level.few.translation;
 
   const Rigid3 guess{RotationZ(Yaw(truth.rotation)), truth.translation};
-  const PoseSummary bounded =
-      SolveWithin(source, target, Quatro(), kNoiseBound, ins, Around(guess));
+  const PoseSummary bounded = SolveWithin(source, target, ins, Around(guess));
   ASSERT_TRUE(bounded.IsUsable()) << bounded.message;
   EXPECT_LT((bounded.target_from_source->ToMatrix() - truth.ToMatrix()).norm(),
             0.1);
-  const PoseSummary free =
-      SolveWithin(source, target, Quatro(), kNoiseBound, ins, PoseBounds());
+  const PoseSummary free = SolveWithin(source, target, ins, PoseBounds());
   ASSERT_TRUE(free.IsUsable());
   EXPECT_GT((free.target_from_source->ToMatrix() - truth.ToMatrix()).norm(),
             1.0);
@@ -137,12 +152,8 @@ TEST(BoundSolver, GravityAlongAnotherAxisTurnsTheYawWithIt) {
       RotationBetween(Eigen::Vector3d::UnitZ(), ins.up);
   const Rigid3 few{turned * level.few.rotation * turned.transpose(),
                    turned * level.few.translation};
-  const PoseSummary summary = SolveWithin(turned * level.source,
-                                          turned * level.target,
-                                          Quatro(),
-                                          kNoiseBound,
-                                          ins,
-                                          Around(few));
+  const PoseSummary summary = SolveWithin(
+      turned * level.source, turned * level.target, ins, Around(few));
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
   EXPECT_LT((summary.target_from_source->ToMatrix() - few.ToMatrix()).norm(),
             0.1);
