@@ -149,18 +149,18 @@ TEST_F(InsProgramTest, GravityWithoutDirection) {
 TEST_F(InsProgramTest, MethodThatNeedsAnIns) {
   for (const std::string gravity : {"0,0,1", "1,0,0"}) {
     ExpectRefused({"--method=quatro_ins", "--gravity=" + gravity},
-                  "--method=quatro_ins",
-                  "--source_rpy_deg and --target_rpy_deg");
+                  "method quatro_ins needs an INS: set ins_mode",
+                  "roll, pitch and yaw of both clouds");
   }
 }
 
 TEST_F(InsProgramTest, MethodWithoutIns) {
   std::vector<std::string> flags = attitudes_;
   flags.insert(flags.end(), {"--ins_mode=leveled", "--method=teaser"});
-  ExpectRefused(flags, "--ins_mode", "needs one of --method=auto, quatro");
+  ExpectRefused(flags, "ins_mode", "needs one of the methods auto, quatro");
   ExpectRefused({"--gravity=1,0,0", "--method=teaser"},
-                "--gravity",
-                "needs one of --method=auto, quatro");
+                "gravity",
+                "needs one of the methods auto, quatro");
 }
 
 // Two scans of a street corner, the source rolled by 12 deg and the target

@@ -261,15 +261,15 @@ TEST_F(RegisterProgramTest, UnknownPreset) {
 }
 
 TEST_F(RegisterProgramTest, UnknownMethod) {
-  ExpectRefusedFlag("--method=magic", "--method=magic", "must be");
+  ExpectRefusedFlag("--method=magic", "method = magic", "must be");
 }
 
 TEST_F(RegisterProgramTest, AnOdometryIsOfAnotherProgram) {
-  ExpectRefusedFlag("--method=aloam", "--method=aloam", "quatro_odometry");
+  ExpectRefusedFlag("--method=aloam", "method aloam", "quatro_odometry");
 }
 
 TEST_F(RegisterProgramTest, UnknownRefinement) {
-  ExpectRefusedFlag("--refine=best", "--refine=best", "none, icp, gicp");
+  ExpectRefusedFlag("--refine=best", "--refine = best", "none, icp, gicp");
 }
 
 TEST_F(RegisterProgramTest, StrayArgument) {

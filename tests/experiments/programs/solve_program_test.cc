@@ -192,7 +192,7 @@ TEST_F(SolveProgramTest, UnknownPreset) {
 }
 
 TEST_F(SolveProgramTest, UnknownMethod) {
-  ExpectRefusedFlag("--method=magic", "--method=magic", "must be");
+  ExpectRefusedFlag("--method=magic", "method = magic", "must be");
 }
 
 TEST_F(SolveProgramTest, SwitchThatIsNeitherOnNorOff) {

@@ -458,13 +458,14 @@ TEST(RunMethodsTest, AnOwnNameIsKnownUnlessItIsOneOfOurs) {
   std::string error;
   methods.names = {"quatro", "mine"};
   EXPECT_FALSE(methods.IsValid(&error));
-  EXPECT_THAT(error, HasSubstr("--method=mine, must be one of"));
+  EXPECT_THAT(error, HasSubstr("method = mine, must be one of"));
   methods.own = {{"mine", "", nullptr}};
   EXPECT_TRUE(methods.IsValid(&error)) << error;
   methods.own[0].name = "quatro";
   methods.names = {"quatro"};
   EXPECT_FALSE(methods.IsValid(&error));
-  EXPECT_THAT(error, HasSubstr("there is a method quatro already"));
+  EXPECT_THAT(error,
+              HasSubstr("method quatro is both an own one and one of quatro"));
 }
 
 TEST(RunMethodsTest, NamesAreOfTheRegistryAndComeOnce) {
