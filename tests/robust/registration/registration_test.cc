@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -267,6 +268,49 @@ TEST_F(TiltedRegistrationTest, AnotherSolverIsGivenTheLevelMatches) {
   ExpectSameBits(RegisterTilted(InsMode::kLeveled), expected);
 }
 
+void ExpectWithin(double share, double value, double expected) {
+  EXPECT_NEAR(value, expected, share * std::abs(expected));
+}
+
+// The numbers of a summary of clouds in other axes, x_in_axes = R x.
+void ExpectSameNumbers(const RegistrationSummary& in_axes,
+                       const RegistrationSummary& expected,
+                       const Eigen::Matrix3d& axes) {
+  const auto expect_axis = [&](const Eigen::Vector3d& direction,
+                               const Eigen::Vector3d& expected_direction) {
+    EXPECT_GT(std::abs(direction.dot(axes * expected_direction)), 0.99);
+  };
+  const auto count = [](Eigen::Index n) { return static_cast<double>(n); };
+  ASSERT_TRUE(in_axes.surface_observability && expected.surface_observability);
+  const SurfaceObservability& a = *in_axes.surface_observability;
+  const SurfaceObservability& b = *expected.surface_observability;
+  ExpectWithin(0.02, count(a.num_overlapping), count(b.num_overlapping));
+  ExpectWithin(0.02, count(a.num_structure), count(b.num_structure));
+  EXPECT_NEAR(a.weakest_level_share, b.weakest_level_share, 0.01);
+  expect_axis(a.weakest_level_axis, b.weakest_level_axis);
+  ASSERT_TRUE(in_axes.verdict.geometry && expected.verdict.geometry);
+  const GeometricEvidence& g = *in_axes.verdict.geometry;
+  const GeometricEvidence& h = *expected.verdict.geometry;
+  EXPECT_NEAR(g.structure_overlap, h.structure_overlap, 0.01);
+  EXPECT_NEAR(g.median_residual, h.median_residual, 0.02);
+  EXPECT_NEAR(g.weakest_share, h.weakest_share, 0.01);
+  expect_axis(g.weakest_direction, h.weakest_direction);
+  EXPECT_NEAR(g.free_space.ContradictedShare().value_or(0.0),
+              h.free_space.ContradictedShare().value_or(0.0),
+              0.01);
+  EXPECT_NEAR(g.rival.overlap, h.rival.overlap, 0.05);
+  EXPECT_NEAR(g.rival.rival_overlap, h.rival.rival_overlap, 0.1);
+  ASSERT_TRUE(in_axes.solution.covariance && expected.solution.covariance);
+  const auto& c = in_axes.solution.covariance->covariance_at_center;
+  const auto& d = expected.solution.covariance->covariance_at_center;
+  ASSERT_TRUE(c && d);
+  Matrix6 turn = Matrix6::Zero();
+  turn.topLeftCorner<3, 3>() = axes;
+  turn.bottomRightCorner<3, 3>() = axes;
+  EXPECT_LT((turn.transpose() * *c * turn - *d).norm(), 0.2 * d->norm());
+  EXPECT_NEAR(in_axes.verdict.probability, expected.verdict.probability, 0.05);
+}
+
 TEST_F(RegistrationTest, AnyAxisMayBeUp) {
   options_.quatro.polish = false;
   const Rigid3 axes{
@@ -298,11 +342,62 @@ TEST_F(RegistrationTest, AnyAxisMayBeUp) {
     EXPECT_NEAR(static_cast<double>(summary.num_mutual_matches),
                 static_cast<double>(expected.num_mutual_matches),
                 0.02 * static_cast<double>(expected.num_mutual_matches));
-    ASSERT_TRUE(summary.verdict.geometry && expected.verdict.geometry);
-    EXPECT_NEAR(summary.verdict.geometry->structure_overlap,
-                expected.verdict.geometry->structure_overlap,
-                0.01);
+    ExpectSameNumbers(summary, expected, axes.rotation);
   }
+}
+
+// One way from matches to a verdict: without clouds it is the same but for the
+// geometry.
+TEST_F(RegistrationTest, MatchesAloneGiveTheSamePoseAndCovariance) {
+  const RegistrationSummary clouds = Register(source_, target_, options_);
+  const RegistrationSummary matches =
+      RegisterMatches({clouds.matched_source, clouds.matched_target}, options_);
+  ASSERT_THAT(matches.error, IsEmpty());
+  ASSERT_TRUE(matches.target_from_source().has_value());
+  EXPECT_EQ(matches.target_from_source()->ToMatrix(),
+            clouds.target_from_source()->ToMatrix());
+  EXPECT_EQ(*matches.solution.covariance->covariance,
+            *clouds.solution.covariance->covariance);
+  EXPECT_EQ(matches.verdict.num_inliers, clouds.verdict.num_inliers);
+  EXPECT_FALSE(matches.verdict.geometry.has_value());
+}
+
+TEST(RegisterMatches, DegenerateMatchesAreCalledSo) {
+  // On one pole the heading is not constrained, however many inliers there are.
+  Random random(1);
+  Points source(3, 60);
+  for (Eigen::Index i = 0; i < source.cols(); ++i) {
+    source.col(i) << 5.0 + 0.02 * RandomNormal(random),
+        3.0 + 0.02 * RandomNormal(random), 6.0 * random.Uniform();
+  }
+  const Points target = source.colwise() + Eigen::Vector3d(1.0, 0.5, 0.1);
+  const RegistrationSummary summary = RegisterMatches({source, target}, {});
+  ASSERT_THAT(summary.error, IsEmpty());
+  EXPECT_EQ(summary.verdict.status, Status::kDegenerate)
+      << summary.verdict.reason;
+}
+
+TEST(RegisterMatches, RefusesWhatNeedsClouds) {
+  const Points points = RandomPoints(20, 5.0, 1);
+  RegistrationOptions options;
+  for (const char* method : {"icp", "quatro_c2f"}) {
+    options.method = method;
+    EXPECT_THAT(RegisterMatches({points, points}, options).error,
+                HasSubstr("works on clouds, not on matches"));
+  }
+  options = {};
+  options.refinement.method = RefinementMethod::kGicp;
+  EXPECT_THAT(RegisterMatches({points, points}, options).error,
+              HasSubstr("refinement needs clouds"));
+  options = {};
+  options.method = "nothing";
+  EXPECT_THAT(RegisterMatches({points, points}, options).error,
+              HasSubstr("must be one of"));
+}
+
+TEST_F(RegistrationTest, TargetIsRegisteredLikeItsCloud) {
+  ExpectSameBits(Target(target_, options_).Register(source_),
+                 Register(source_, target_, options_));
 }
 
 TEST_F(RegistrationTest, BareGroundIsNotRegistered) {
