@@ -277,7 +277,7 @@ int Main(int argc, char** argv) {
                    {"target_points", target->points.cols()},
                    {"target_dropped", target->num_dropped},
                    {"target_voxels", summary.num_target_voxels}});
-  if (summary.matched_source.cols() > 0) {
+  if (!quatro::StartsFromGuess(FLAGS_method)) {
     report["counts"]["mutual_matches"] = summary.num_mutual_matches;
   }
   report["surface_observability"] =

@@ -59,11 +59,6 @@ bool SetSwitch(const OptionList& list,
   return false;
 }
 
-bool StartsFromGuess(const std::string& method) {
-  const auto names = ExperimentMethodNames(MethodInput::kClouds);
-  return std::find(names.begin(), names.end(), method) != names.end();
-}
-
 // What a method that starts from a guess has no use for.
 bool CanStartFromGuess(const RegistrationFlags& flags,
                        const RegistrationOptions& options,
@@ -95,6 +90,11 @@ bool CheckMethod(const RegistrationFlags& flags,
 }
 
 }  // namespace
+
+bool StartsFromGuess(const std::string& method) {
+  const auto names = ExperimentMethodNames(MethodInput::kClouds);
+  return std::find(names.begin(), names.end(), method) != names.end();
+}
 
 bool ApplyFlags(const RegistrationFlags& flags,
                 bool has_clouds,

@@ -29,6 +29,9 @@ struct RegistrationFlags {
   BoundFlags bounds;
 };
 
+// Whether the method works on clouds alone, from a guess.
+bool StartsFromGuess(const std::string& method);
+
 // Sets what the flags ask for. Returns false and sets *error, which names the
 // flag, for a value that is not valid or does not go with the method.
 bool ApplyFlags(const RegistrationFlags& flags,
