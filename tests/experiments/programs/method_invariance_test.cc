@@ -24,10 +24,10 @@ constexpr Eigen::Index kNumFar = 12;
 constexpr double kNoiseBound = 0.3;
 
 // Of the library's methods: peers' programs are their authors'.
-RegistrationSummary Run(const std::string& name,
-                        const PointsRef& source,
-                        const PointsRef& target,
-                        double noise_bound) {
+RegistrationSummary RunMethod(const std::string& name,
+                              const PointsRef& source,
+                              const PointsRef& target,
+                              double noise_bound) {
   RegistrationOptions options;
   options.method = name;
   options.noise_bound = noise_bound;
@@ -41,7 +41,7 @@ PoseSummary Solve(const std::string& name,
                   const PointsRef& source,
                   const PointsRef& target,
                   double noise_bound) {
-  return Run(name, source, target, noise_bound).solution;
+  return RunMethod(name, source, target, noise_bound).solution;
 }
 
 // Inliers first, so that outliers can be replaced from the end.
@@ -145,14 +145,14 @@ TEST_P(MethodInvariance, NeitherPoseNorVerdictKnowsOfAFltMax) {
   const Points source = problem.source.leftCols(num_others);
   const Points target = problem.target.leftCols(num_others);
   const RegistrationSummary registration =
-      Run(GetParam(), source, target, kNoiseBound);
+      RunMethod(GetParam(), source, target, kNoiseBound);
   const PoseSummary& expected = registration.solution;
   ASSERT_TRUE(expected.IsUsable()) << expected.message;
   const Verdict& verdict = registration.verdict;
 
   problem.source(0, num_others) = std::numeric_limits<float>::max();
   const RegistrationSummary spoiled_registration =
-      Run(GetParam(), problem.source, problem.target, kNoiseBound);
+      RunMethod(GetParam(), problem.source, problem.target, kNoiseBound);
   const PoseSummary& summary = spoiled_registration.solution;
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
   EXPECT_EQ(summary.num_matches, num_others);

@@ -42,9 +42,9 @@ std::vector<std::string> CloudMethodNames() {
   return names;
 }
 
-RegistrationSummary Run(const std::string& name,
-                        const MatchedProblem& problem,
-                        const RegistrationOptions& options) {
+RegistrationSummary RunMethod(const std::string& name,
+                              const MatchedProblem& problem,
+                              const RegistrationOptions& options) {
   std::string error;
   const MatchSolver solve = FindMatchSolver(name, {}, &error);
   EXPECT_TRUE(solve) << name;
@@ -56,7 +56,7 @@ PoseSummary Solve(const std::string& name,
                   const MatchedProblem& problem,
                   RegistrationOptions options = {}) {
   if (NeedsIns(name)) options.ins.mode = InsMode::kLeveled;  // Level.
-  const RegistrationSummary summary = Run(name, problem, options);
+  const RegistrationSummary summary = RunMethod(name, problem, options);
   EXPECT_EQ(summary.error, "") << name;
   return summary.solution;
 }
@@ -83,7 +83,7 @@ TEST(Methods, EachTellsSizesThatDiffer) {
   for (const std::string& name : MatchMethodNames()) {
     RegistrationOptions options;
     if (NeedsIns(name)) options.ins.mode = InsMode::kLeveled;
-    const RegistrationSummary summary = Run(name, problem, options);
+    const RegistrationSummary summary = RunMethod(name, problem, options);
     EXPECT_EQ(summary.solution.termination, PoseTermination::kInvalidInput)
         << name;
     EXPECT_EQ(summary.error,
@@ -172,14 +172,14 @@ TEST(Methods, AnUnknownNameListsAll) {
 TEST(Methods, QuatroInsNeedsAnIns) {
   const MatchedProblem problem = MakeOutlierProblem(50, 0.5, 0.05, 1);
   RegistrationOptions options;
-  RegistrationSummary summary = Run("quatro_ins", problem, options);
+  RegistrationSummary summary = RunMethod("quatro_ins", problem, options);
   EXPECT_THAT(summary.error, HasSubstr("needs an INS"));
   EXPECT_THAT(summary.error, HasSubstr("ins_mode"));
   EXPECT_THAT(summary.error, HasSubstr("roll, pitch and yaw"));
   EXPECT_FALSE(summary.target_from_source());
   // An axis has another meaning.
   options.ins.up = Eigen::Vector3d::UnitX();
-  summary = Run("quatro_ins", problem, options);
+  summary = RunMethod("quatro_ins", problem, options);
   EXPECT_THAT(summary.error, HasSubstr("needs an INS"));
   EXPECT_FALSE(summary.target_from_source());
 }
@@ -193,7 +193,7 @@ TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
   options.ins.source_attitude = problem.source_attitude;
   options.ins.target_attitude = problem.target_attitude;
   for (const std::string& name : MatchMethodNames()) {
-    const RegistrationSummary registration = Run(name, matches, options);
+    const RegistrationSummary registration = RunMethod(name, matches, options);
     const bool is_about_the_vertical = name == "auto" ||
                                        name == "arc_consensus" ||
                                        name.rfind("quatro", 0) == 0;
