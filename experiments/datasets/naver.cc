@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "experiments/base/number_text.h"
-#include "features/base/file.h"
 #include "features/base/cloud_text.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

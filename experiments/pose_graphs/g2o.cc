@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "features/base/file.h"
 #include "features/base/cloud_text.h"
+#include "features/base/file.h"
 
 namespace quatro {
 namespace {

@@ -10,12 +10,12 @@
 
 #include "experiments/simulator/synthetic.h"
 #include "features/base/stopwatch.h"
-#include "solvers/closed_form/exact_yaw.h"
 #include "robust/estimators/arc_consensus.h"
 #include "robust/gnc/gnc.h"
 #include "robust/gnc/quasi_so3.h"
 #include "robust/gnc/surrogate.h"
 #include "robust/registration/registration.h"
+#include "solvers/closed_form/exact_yaw.h"
 
 namespace quatro {
 namespace {

@@ -8,8 +8,8 @@
 #include <unordered_set>
 
 #include "experiments/runner/run_problem.h"
-#include "features/base/parallel.h"
 #include "features/base/cloud_text.h"
+#include "features/base/parallel.h"
 
 namespace quatro {
 

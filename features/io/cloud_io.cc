@@ -7,8 +7,8 @@
 #include <exception>
 #include <string_view>
 
-#include "features/base/file.h"
 #include "features/base/cloud_text.h"
+#include "features/base/file.h"
 #include "features/base/foreign_file.h"
 #include "features/io/kitti_bin.h"
 #include "features/io/pcd.h"

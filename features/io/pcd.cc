@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "features/io/cloud_fields.h"
 #include "features/base/cloud_text.h"
+#include "features/io/cloud_fields.h"
 #include "features/io/pcd_header.h"
 
 namespace quatro {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "features/io/cloud_fields.h"
 #include "features/base/cloud_text.h"
+#include "features/io/cloud_fields.h"
 #include "features/io/ply_header.h"
 #include "features/io/ply_rows.h"
 

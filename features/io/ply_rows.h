@@ -18,8 +18,8 @@
 #include <string>
 #include <string_view>
 
-#include "features/io/cloud_fields.h"
 #include "features/base/cloud_text.h"
+#include "features/io/cloud_fields.h"
 #include "features/io/ply_header.h"
 
 namespace quatro {

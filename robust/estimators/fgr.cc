@@ -15,9 +15,9 @@
 
 #include "features/base/parallel.h"
 #include "robust/estimators/distinct_matches.h"
-#include "robust/graph/far_matches.h"
 #include "robust/estimators/rotation_observability.h"
 #include "robust/gnc/surrogate.h"
+#include "robust/graph/far_matches.h"
 #include "solvers/closed_form/rotation.h"
 #include "solvers/closed_form/valid_matches.h"
 

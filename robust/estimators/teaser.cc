@@ -10,9 +10,9 @@
 
 #include "robust/estimators/crosscheck.h"
 #include "robust/estimators/distinct_matches.h"
-#include "robust/graph/far_matches.h"
 #include "robust/gnc/so3.h"
 #include "robust/gnc/surrogate.h"
+#include "robust/graph/far_matches.h"
 #include "solvers/closed_form/translation.h"
 #include "solvers/closed_form/valid_matches.h"
 

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
     ,
     MethodInvariance,
     ::testing::ValuesIn(MethodNames(MethodInput::kMatches)),
-    [](const auto& info) { return info.param; });
+    [](const auto& method) { return method.param; });
 
 TEST_P(MethodInvariance, TheUnitOfLengthDoesNotMatter) {
   for (const double noise : {0.0, 0.05}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "experiments/programs/gnc_film.h"
+#include "experiments/protocols/gnc_film.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 // (solvers/closed_form/exact_yaw.h). Input of
 // experiments/scripts/draw_gnc_film.py.
 
-#ifndef QUATRO_EXPERIMENTS_PROGRAMS_GNC_FILM_H_
-#define QUATRO_EXPERIMENTS_PROGRAMS_GNC_FILM_H_
+#ifndef QUATRO_EXPERIMENTS_PROTOCOLS_GNC_FILM_H_
+#define QUATRO_EXPERIMENTS_PROTOCOLS_GNC_FILM_H_
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -63,4 +63,4 @@ Table TabulateFilm(const GncFilm& film);
 
 }  // namespace quatro
 
-#endif  // QUATRO_EXPERIMENTS_PROGRAMS_GNC_FILM_H_
+#endif  // QUATRO_EXPERIMENTS_PROTOCOLS_GNC_FILM_H_
