@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "features/base/random.h"
+#include "robust/graph/consistency_graph.h"
 #include "robust/graph/max_clique.h"
 #include "tests/support/random_problems.h"
 

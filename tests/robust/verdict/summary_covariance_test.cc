@@ -17,6 +17,7 @@
 #include "robust/estimators/ransac.h"
 #include "robust/estimators/teaser.h"
 #include "robust/registration/ins.h"
+#include "tests/support/ins_solutions.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
