@@ -87,9 +87,12 @@ OptionList GncOptionList(GncOptions* o) {
 
 template <typename Number>
 bool ParseNumber(std::string_view text, Number* number) {
+  Number parsed{};
   const auto [end, code] =
-      std::from_chars(text.data(), text.data() + text.size(), *number);
-  return code == std::errc() && end == text.data() + text.size();
+      std::from_chars(text.data(), text.data() + text.size(), parsed);
+  if (code != std::errc() || end != text.data() + text.size()) return false;
+  *number = parsed;
+  return true;
 }
 
 bool ParseField(const std::string& text, bool* field) {
