@@ -195,7 +195,7 @@ TEST(MatchRivalOptions, ErrorNamesTheFieldThatIsOutOfRange) {
                "min_shift_factor");
   expect_error([](Options o) { o->num_pairs = 0; }, "num_pairs");
   expect_error([](Options o) { o->max_num_matches = 1; }, "max_num_matches");
-  expect_error([](Options o) { o->bounds.max_yaw = nan; }, "max_yaw");
+  expect_error([&](Options o) { o->bounds.max_yaw = nan; }, "max_yaw");
   expect_error([](Options o) { o->num_threads = -1; }, "num_threads");
 }
 
