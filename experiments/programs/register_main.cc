@@ -249,10 +249,6 @@ int Main(int argc, char** argv) {
   if (!source) return Fail(error);
   const auto target = quatro::ReadCloud(FLAGS_target, reading, &error);
   if (!target) return Fail(error);
-  std::error_code ignored;
-  if (std::filesystem::equivalent(FLAGS_source, FLAGS_target, ignored)) {
-    std::fprintf(stderr, "source and target are the same file\n");
-  }
   auto options = OptionsFromFlags(*source, *target, &error);
   if (!options) return Fail(error);
   options->progress = [](const quatro::StageTime& time) {
@@ -298,6 +294,10 @@ int Main(int argc, char** argv) {
                summary.total_seconds * 1e3,
                quatro::StatusName(summary.verdict.status),
                summary.verdict.reason.c_str());
+  std::error_code ignored;
+  if (std::filesystem::equivalent(FLAGS_source, FLAGS_target, ignored)) {
+    std::fprintf(stderr, "source and target are the same file\n");
+  }
 
   std::vector<quatro::OutputFile> files;
   if (!FLAGS_correspondences_out.empty()) {

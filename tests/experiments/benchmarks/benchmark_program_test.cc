@@ -93,7 +93,7 @@ TEST_F(BenchmarkProgramTest, SimulatesPairThatHasPose) {
 
 TEST_F(BenchmarkProgramTest, SaysWhichStagesNeedPose) {
   const std::string path = WriteScan("a.bin");
-  const std::string line = PathOf("line.bin");
+  const std::string line = PathOf("line.ply");
   PointCloud cloud;
   cloud.points = Eigen::Matrix3Xd::Zero(3, 100);
   cloud.points.row(0).setLinSpaced(-9.0, 9.0);
@@ -118,9 +118,9 @@ TEST_F(BenchmarkProgramTest, RefusesBadInput) {
   expect({"--sizes=10,x"}, "--sizes=10,x", "whole numbers");
   expect({"--sizes=2"}, "--sizes=2", "from 3");
   expect({"--sizes=1e9"}, "--sizes=1e9", "to 10000000");
-  expect({"--preset=boat"}, "--preset=boat", "none");
+  expect({"--preset=boat"}, "--preset=boat", "kitti");
   expect({"--threads=-1"}, "num_threads = -1", ">= 0");
-  expect({"--source=" + path}, "--source and --target", "together");
+  expect({"--source=" + path}, "--target is empty", "name both");
   expect({"--source=" + path, "--target=" + PathOf("b.bin")}, "b.bin", "");
   expect({"--source=" + path, "--target=" + none}, "none.bin", "empty");
   expect({"--frame=1"}, "frame", "");

@@ -260,13 +260,13 @@ TEST_F(ScanGraphTest, BadFlagsAreRefused) {
   };
   expect_refused({"--scans=a.bin,b.bin", odometry}, "three clouds");
   expect_refused({scans}, "--odometry is empty");
-  expect_refused({scans, odometry}, "a pose in space for each of 3 scans");
+  expect_refused({scans, odometry}, "a pose in space for each of the 3 clouds");
   expect_refused({scans, odometry, "--preset=none"}, "--preset=none");
   expect_refused({scans, odometry, "--loss=l1"}, "--loss=l1");
   for (const char* value : {"0", "1e-160", "1e160", "inf", "nan"}) {
     for (const std::string name : {"--loop_sigma_m", "--loop_sigma_deg"}) {
       expect_refused({scans, odometry, name + "=" + value},
-                     name + " must be 1e-6 to 1");
+                     ", must be 1e-6 to 1");
     }
   }
   const std::string poses =

@@ -231,7 +231,7 @@ TEST(JsonReportTest, OptionsAreDescribedByTheirNamesInTheLibrary) {
   options.noise_bound = 0.15;
   options.quatro.gnc.start = GncStart::kIdentity;
   options.front_end.normal_radius = 0.5;
-  const Json quatro = DescribeOptions(options.quatro);
+  const Json quatro = DescribeOptions(WithSharedValues(options).quatro);
   EXPECT_EQ(quatro["noise_bound"], 0.15);
   EXPECT_EQ(quatro["gnc_start"], "identity");
   const Json front_end = DescribeOptions(options.front_end);

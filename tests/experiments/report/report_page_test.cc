@@ -105,7 +105,7 @@ TEST(ReportPage, StaysWithinItsLimitAndSaysWhatIsLeftOut) {
   ASSERT_GT(num_views, 10u);
   ASSERT_EQ(data["notes"].size(), 1u);
   EXPECT_THAT(data["notes"][0].get<std::string>(),
-              HasSubstr(std::to_string(num_views) + " of 102 pairs"));
+              HasSubstr(std::to_string(num_views) + " of 102 stored 3D views"));
   const auto few_rows =
       DataOf(FormatReportPage(SmallPage(), kTemplate, {.max_rows = 1}));
   EXPECT_EQ(few_rows["pairs"]["rows"].size(), 1u);

@@ -49,7 +49,7 @@ class DrawScriptsTest(unittest.TestCase):
         for script in DRAWERS:
             self.expect_refused("give ", script)
             self.expect_refused("none.csv: No such file", script, "none.csv", self.picture)
-            self.expect_refused("table.csv: 'utf-8' codec", script, self.table(b"x\n\xff\n"),
+            self.expect_refused("table.csv: is not UTF-8 text", script, self.table(b"x\n\xff\n"),
                                 self.picture)
             for text in ("", "a,b\n", "a,b\n1,2\n"):
                 self.expect_refused("table.csv: ", script, self.table(text), self.picture)
@@ -79,7 +79,7 @@ class DrawScriptsTest(unittest.TestCase):
 
     def test_bad_results_are_told(self):
         for content, problem in (("", "there is no column"), (RESULTS, "there are no pairs"),
-                                 (b"\xff", "'utf-8' codec"),
+                                 (b"\xff", "is not UTF-8 text"),
                                  (RESULTS + "s,a,b\n", "line 2 must have 7 columns"),
                                  (RESULTS + "s,a,b,registered,1,0.9,m=x\n", "line 2 is not of"),
                                  (RESULTS + "s,a,b,ambiguous,,,\n", "there are no pairs")):

@@ -180,7 +180,7 @@ class PairScriptsTest(unittest.TestCase):
                                   f"--program={self.program}", f"--pairs={self.pairs}"],
                                  stdout=full, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual(run.returncode, 2, run.stderr)
-        self.assertEqual(run.stderr.splitlines()[3:],
+        self.assertEqual(run.stderr.splitlines()[1:],
                          ["run_pairs.py: standard output: No space left on device"])
 
     def test_two_runs_do_not_share_an_output(self):

@@ -178,7 +178,7 @@ TEST(SummaryTable, WithoutTruthThereIsNoWrong) {
   EXPECT_EQ(row.at("apart"), "0");
   EXPECT_EQ(row.at("no truth"), "1");
   EXPECT_EQ(row.at("registered"), "1");
-  EXPECT_EQ(row.at("wrong registered"), "");
+  EXPECT_EQ(row.at("false registrations"), "");
   EXPECT_EQ(row.at("success % / 2 m 5 deg"), "");
 }
 

@@ -505,7 +505,7 @@ TEST_F(CeresGncRefuses, NumbersOutOfRange) {
   }
   options_ = Tight();
   options_.bounds = {{mean_.ids[0], -1.0}};
-  ExpectRefused(options_, "bounds has -1");
+  ExpectRefused(options_, "bounds contains -1");
   options_ = Tight();
   for (const double probability : {0.0, 1.0, kNan}) {
     options_.inlier_probability = probability;

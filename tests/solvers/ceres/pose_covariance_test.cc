@@ -556,7 +556,7 @@ TEST_F(PoseCovarianceTest, WhatIsNotFiniteIsRefused) {
 TEST_F(PoseCovarianceTest, SizesThatDifferAreRefused) {
   const auto result = Compute(source_, target_.leftCols(2), pose_);
   EXPECT_FALSE(result.covariance.has_value());
-  EXPECT_THAT(result.message, HasSubstr("matched with 2 target points"));
+  EXPECT_THAT(result.message, HasSubstr("but 2 target points"));
 }
 
 TEST_F(PoseCovarianceTest, OptionsOutOfRangeAreNamedAndNothingIsTried) {
