@@ -22,7 +22,7 @@ COMMANDS = [
     ('A file that is not there', 'quatro_register --source=c.bin --target=b.bin'),
     ('A format that is not known', 'quatro_register --source=a.las --target=b.bin'),
     ('Text named `.bin`', 'quatro_register --source=text.bin --target=b.bin'),
-    ('Five numbers a point in a `.bin`', 'quatro_register --source=five.bin --target=b.bin'),
+    ('Matches with semicolons', 'quatro_solve --correspondences=semicolons.csv'),
     ('A flag that is misspelled', 'quatro_register --source=a.bin --target=b.bin --voxelsize=0.3'),
     ('A method that is not known', 'quatro_register --source=a.bin --target=b.bin --method=teaser++'),
     ('A length that is negative', 'quatro_register --source=a.bin --target=b.bin --voxel_size=-0.3'),
@@ -49,8 +49,7 @@ def make_inputs(folder):
     (folder / 'a.ply').write_text('\n'.join([
         'ply', 'format ascii 1.0', f'element vertex {len(lines)}', 'property float x',
         'property float y', 'property float z', 'end_header', *lines]) + '\n')
-    (folder / 'five.bin').write_bytes(
-        b''.join(struct.pack('<5f', *point, 0.5, 1.0) for point in grid[:999]))
+    (folder / 'semicolons.csv').write_text('1;2;3;4;5;6\n')
     (folder / 'five.csv').write_text('1,2,3,4,5\n')
 
 

@@ -73,7 +73,7 @@ TEST_F(OutsideResultsTest, BadPosesAreNamed) {
   ExpectBadPoses("", "is empty");
   ExpectBadPoses("1 2 3\n", "line 1 has 3 numbers, must have 12");
   ExpectBadPoses(std::string(kIdentity) + "\n\n" + kIdentity + "\n",
-                 "line 2 has 0 numbers");
+                 "line 2 is blank, must have 12 numbers");
   ExpectBadPoses(std::string(kIdentity) + " 1\n", "line 1 has 13 numbers");
   ExpectBadPoses("1 0 0 0 0 1 0 x 0 0 1 0\n",
                  "line 1 number 8 is not a finite number");

@@ -165,7 +165,8 @@ TEST_F(RunFolderTest, AFolderOfOtherThingsIsLeftAlone) {
 TEST_F(RunFolderTest, RowsOfOtherMethodsAreRefused) {
   MakeTwoPairs();
   EXPECT_FALSE(RunFolder::Open(Folder(), {"icp", "quatro"}, &error_));
-  EXPECT_THAT(error_, HasSubstr("rows.csv: line 2: does not match the methods"));
+  EXPECT_THAT(error_,
+              HasSubstr("rows.csv: line 2: does not match the methods"));
 }
 
 TEST_F(RunFolderTest, ABrokenLineInTheMiddleIsAnError) {
