@@ -41,6 +41,7 @@
 
 namespace quatro {
 
+// The layout of one point.
 struct BinLayout {
   int num_values = 4;  // Of a point: x, y, z, the intensity if there are four.
   ScalarType type = ScalarType::kFloat32;  // Or kFloat64.

@@ -19,6 +19,7 @@
 
 namespace quatro {
 
+// How files without a header are read.
 struct ReadCloudOptions {
   // Numbers of a point of a .bin, 3 to 64: x, y, z, from four on the intensity,
   // and what is passed over. 0: told by the numbers (bin_layout.h).

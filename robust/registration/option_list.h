@@ -63,6 +63,7 @@ struct Option {
   bool Parse(const std::string& text, std::string* error) const;
 };
 
+// Options in the order of help texts.
 using OptionList = std::vector<Option>;
 
 // Options that all methods share: noise bound, seed, threads, probability.

@@ -41,9 +41,11 @@ RegistrationSummary RegisterMatches(const Matches& matches,
 // Registers many sources against one target.
 class Target {
  public:
+  // Keeps the cloud and the options.
   Target(PointCloud cloud, RegistrationOptions options)
       : cloud_(std::move(cloud)), options_(std::move(options)) {}
 
+  // Registers one source against the target.
   RegistrationSummary Register(const PointCloud& source) const {
     return quatro::Register(source, cloud_, options_);
   }
