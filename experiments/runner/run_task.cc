@@ -4,6 +4,7 @@
 #include "experiments/runner/run_task.h"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -100,7 +101,11 @@ TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
       ReadCloud(task.source, methods.reading, &error);
   std::optional<PointCloud> target;
   if (source) target = ReadCloud(task.target, methods.reading, &error);
-  if (!target) return AllUnreadable(blank, methods.names, error);
+  if (!target) {
+    // Not the scan's fault: the run ends here, and can be resumed with more.
+    if (error.ends_with("fit in memory")) throw std::bad_alloc();
+    return AllUnreadable(blank, methods.names, error);
+  }
   if (task.added_yaw != 0.0) {
     source->points = RotationZ(task.added_yaw) * source->points;
   }
