@@ -12,11 +12,12 @@
 
 namespace quatro {
 
-// The parts of a line between any of `separators`, a run of which counts once.
+// The fields of a line between any of `separators`; a run of separators counts
+// as one.
 std::vector<std::string_view> SplitFields(std::string_view line,
                                           std::string_view separators);
 
-// What separates numbers in lines of text.
+// The separators of numbers in lines of text.
 inline constexpr std::string_view kBlanks = " \t\v\f";
 
 // Without blanks at both ends.

@@ -148,7 +148,8 @@ PairSolver FindPairSolver(const std::string& name,
     };
   }
   const MakeSolver make = FindMaker(name, own);
-  const Method* method = FindMethod(name, error);
+  std::string ignored;  // Peers and own methods are not in the registry.
+  const Method* method = FindMethod(name, &ignored);
   const bool needs_clouds = method && method->input == MethodInput::kClouds;
   return [=](const PointCloud& source,
              const PointCloud& target,

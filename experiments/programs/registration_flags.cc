@@ -86,7 +86,10 @@ bool CheckMethod(const RegistrationFlags& flags,
   }
   std::string ignored;
   const Method* method = FindMethod(flags.method, &ignored);
-  return method == nullptr || CanUseIns(*method, options.ins, error);
+  if (method != nullptr) return CanUseIns(*method, options.ins, error);
+  if (options.ins.IsPlain()) return true;
+  *error = "--ins_mode and --gravity do not go with --method=" + flags.method;
+  return false;
 }
 
 }  // namespace

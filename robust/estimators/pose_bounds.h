@@ -42,8 +42,8 @@ struct PoseBounds {
   // with one of the bounds above.
   double max_tilt = 0.0873;
 
-  // What is up in the target, a unit vector. SolveWithin() and Register()
-  // replace it by the vertical of their InsOptions.
+  // Which way is up in the target, a unit vector. Register() and
+  // RegisterMatches() replace it by the vertical of their InsOptions.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 
   // Returns false and says why in *error if a value is out of range.

@@ -210,6 +210,13 @@ OptionList OptionsOf(const Method& method,
     Append(FrontEndOptionList(options), &list);
     Append(RefinementOptionList(options), &list);
   }
+  if (method.input == kClouds) {
+    std::erase_if(list, [](const Option& o) {
+      return o.name != "num_threads" && o.name != "voxel_size";
+    });
+  } else if (method.input == kMatchedClouds) {
+    std::erase_if(list, [](const Option& o) { return o.name == "refine"; });
+  }
   Append(method.options(options), &list);
   if (method.ins != kRefused) Append(InsOptionList(options), &list);
   Append(BoundsOptionList(options), &list);

@@ -56,8 +56,9 @@ std::vector<std::string> MethodNames(MethodInput input);
 // Returns a nullptr and sets *error for a name that is not in the registry.
 const Method* FindMethod(const std::string& name, std::string* error);
 
-// All options that a call with this method takes: the common ones, the front
-// end's and the refinement's where there are clouds, the method's, and an INS'.
+// All options that the method reads: the common ones, the front end's and the
+// refinement's if there are clouds, the method's, and an INS'. An option that
+// it has no use for is not among them.
 OptionList OptionsOf(const Method& method,
                      bool has_clouds,
                      RegistrationOptions* options);

@@ -70,8 +70,8 @@ bool RegistrationOptions::IsValid(std::string* error) const {
     problem << "num_threads = " << num_threads << ", must be >= 0";
   } else if (!(noise_bound > 0.0 && std::isfinite(noise_bound))) {
     problem << "noise_bound = " << noise_bound << ", must be > 0 and finite";
-  }
-  if (verdict.rival.bounds.IsActive() || evidence.rival.bounds.IsActive()) {
+  } else if (verdict.rival.bounds.IsActive() ||
+             evidence.rival.bounds.IsActive()) {
     problem << "rival.bounds are set, set bounds of the registration instead";
   }
   *error = problem.str();

@@ -216,6 +216,8 @@ RegistrationSummary Register(const PointCloud& source,
   std::string error;
   const Method* method = FindMethod(options.method, &error);
   if (method && method->input == MethodInput::kClouds && !options.solver) {
+    RegistrationSummary summary;
+    if (!CanUseIns(*method, options.ins, &summary.error)) return summary;
     RegistrationOptions local = options;
     method->adjust(&local);
     return RegisterLocally(source, target, options.bounds.guess, local);

@@ -361,23 +361,12 @@ struct Exception {
 };
 
 const std::vector<Exception>& Exceptions() {
-  const std::vector<std::string> local = {"icp", "gicp", "vgicp"};
   static const std::vector<Exception> exceptions = {
       {"num_threads", {}, "never changes the answer, see below"},
       {"clique_time_limit_seconds", {}, "a clique of so few takes no time"},
-      {"refine", {"quatro_c2f", "icp", "gicp", "vgicp"}, "is the method"},
       {"max_tilt", {"ransac"}, "rejects samples, see minimal_pose_test.cc"},
       {"replace_missed_optimum", {"quatro_c2f"}, "as quatro's"},
-      {"certificate_tolerance", {"quatro_c2f"}, "as quatro's"},
-      {"refine_max_translation", local, "the guess is not to be trusted"},
-      {"refine_max_rotation", local, "the guess is not to be trusted"},
-      {"noise_bound", local, "of matches"},
-      {"min_probability", local, "never registered"},
-      {"seed", local, "nothing is random"},
-      {"normal_radius", local, "normals are of the 20 nearest"},
-      {"fpfh_radius", local, "no descriptors"},
-      {"tuple_test", local, "of matches"},
-      {"tuple_scale", local, "of matches"}};
+      {"certificate_tolerance", {"quatro_c2f"}, "as quatro's"}};
   return exceptions;
 }
 
