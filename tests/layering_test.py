@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The quatro authors
 # SPDX-License-Identifier: MIT
 """Checks who includes whom: fails if a room includes one that does not stand
-before it in ROOMS, if files include each other in a circle, or if a room has
-grown too large.
+before it in ROOMS, if files include each other in a circle, if a room has
+grown too large, or if a file includes one of ours that does not exist.
 
   tests/layering_test.py [root of the repository]
 """
@@ -29,6 +29,7 @@ ROOMS = {
     'experiments': ['features', 'solvers', 'robust'],
     'python': ['features', 'solvers', 'robust'],
 }
+MADE_BY_CMAKE = {'experiments/runner/commit_text.h'}
 MAX_SOURCES_IN_ROOM = 25  # A header and its source count as one.
 
 
@@ -50,7 +51,19 @@ def may_include(room, included_room):
 def includes_of(root, path):
     text = (root / path).read_text(encoding='utf-8')
     return re.findall(r'^#include "((?:features|solvers|robust|experiments|'
-                      r'python)/[^"]+)"', text, re.M)
+                      r'python|tests)/[^"]+)"', text, re.M)
+
+
+def find_missing(root):
+    """One line for each include, in tests too, of a file that does not exist."""
+    for top in sorted({name.split('/')[0] for name in ROOMS} | {'tests'}):
+        for file in sorted((root / top).rglob('*')):
+            if file.suffix not in ('.h', '.cc') or 'node_modules' in file.parts:
+                continue
+            path = file.relative_to(root).as_posix()
+            for included in includes_of(root, path):
+                if included not in MADE_BY_CMAKE and not (root / included).exists():
+                    yield f'{path}: {included} does not exist'
 
 
 def find_circle(graph):
@@ -79,7 +92,7 @@ def find_circle(graph):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                         pathlib.Path(__file__).resolve().parents[1])
-    problems = []
+    problems = list(find_missing(root))
     graph = {}
     sizes = {}
     num_includes = 0

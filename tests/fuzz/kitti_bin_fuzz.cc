@@ -4,7 +4,7 @@
 
 #include "features/io/kitti_bin.h"
 
-#include "features/bin_layout.h"
+#include "features/io/bin_layout.h"
 #include "tests/fuzz/cloud_checks.h"
 
 namespace {
