@@ -56,6 +56,23 @@ Fpfh Describe(const Points& points,
 // A larger radius reaches across most of a scan.
 constexpr double kMaxVoxels = 100.0;
 
+// The descriptors of the cloud by the radii in `options`.
+Fpfh DescribeAgain(const DescribedCloud& cloud,
+                   const FrontEndOptions& options,
+                   int num_threads) {
+  const Neighborhoods neighborhoods =
+      FindNeighborhoods(*cloud.tree, options.fpfh_radius, num_threads);
+  const Points normals = EstimateNormals(cloud.points(),
+                                         neighborhoods,
+                                         options.normal_radius,
+                                         cloud.sensor,
+                                         num_threads);
+  if (options.describe) {
+    return options.describe(cloud.points(), normals, options.fpfh_radius);
+  }
+  return ComputeFpfh(cloud.points(), normals, neighborhoods, num_threads);
+}
+
 }  // namespace
 
 bool FrontEndOptions::IsValid(std::string* error) const {
@@ -76,6 +93,16 @@ bool FrontEndOptions::IsValid(std::string* error) const {
   }
   *error = problem.str();
   return false;
+}
+
+std::vector<Match> MatchAgain(const DescribedCloud& source,
+                              const DescribedCloud& target,
+                              const FrontEndOptions& options,
+                              int num_threads) {
+  // One after the other: a describer need not be thread-safe.
+  const Fpfh source_fpfh = DescribeAgain(source, options, num_threads);
+  const Fpfh target_fpfh = DescribeAgain(target, options, num_threads);
+  return MatchMutualNearest(source_fpfh, target_fpfh, num_threads);
 }
 
 MatchedClouds MatchClouds(
@@ -146,6 +173,7 @@ MatchedClouds MatchClouds(
   std::vector<Match> matches =
       MatchMutualNearest(fpfh[0], fpfh[1], num_threads);
   clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
+  clouds.mutual_matches = matches;
   if (options.tuple_test) {
     TupleTestOptions tuple = options.tuple;
     tuple.seed = seed;

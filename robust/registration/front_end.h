@@ -21,6 +21,7 @@
 #include "features/fpfh.h"
 #include "features/io/point_cloud.h"
 #include "features/kd_tree.h"
+#include "features/matching.h"
 #include "features/tuple_test.h"
 
 namespace quatro {
@@ -57,8 +58,18 @@ struct MatchedClouds {
   Points matched_target;                // [m]
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
+  // All mutual matches, as columns of the voxel means.
+  std::vector<Match> mutual_matches;
+
   std::vector<StageTime> stage_times;
 };
+
+// Mutual matches of two described clouds by descriptors of the radii in
+// `options`, without a tuple test; the clouds' own normals are not used.
+std::vector<Match> MatchAgain(const DescribedCloud& source,
+                              const DescribedCloud& target,
+                              const FrontEndOptions& options,
+                              int num_threads);
 
 // `source_up` and `target_up` are unit vectors: which way is up in each cloud.
 // Options must be valid.

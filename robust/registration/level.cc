@@ -137,6 +137,9 @@ void TakeBack(const LevelFrames& frames, RegistrationSummary* summary) {
     TakeBack(frames, &*summary->surface_observability);
   }
   TakeBack(frames, &summary->verdict);
+  for (PoseCandidate& candidate : summary->candidates) {
+    TakeBack(frames, &candidate.target_from_source);
+  }
 }
 
 }  // namespace quatro

@@ -36,6 +36,9 @@ struct Method {
   MethodInput input;
   InsUse ins;
 
+  // Whether other poses are searched if the solver's is not registered.
+  bool searches;
+
   // The options that this method reads; any other is an error.
   OptionList (*options)(RegistrationOptions* options);
 

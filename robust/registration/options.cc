@@ -79,9 +79,10 @@ bool RegistrationOptions::IsValid(std::string* error) const {
          front_end.IsValid(error) && quatro.IsValid(error) &&
          arc_consensus.IsValid(error) && teaser.IsValid(error) &&
          fgr.IsValid(error) && ransac.IsValid(error) && bounds.IsValid(error) &&
-         ins.IsValid(error) && covariance.IsValid(error) &&
-         surface_observability.IsValid(error) && evidence.IsValid(error) &&
-         verdict.IsValid(error) && refinement.IsValid(error);
+         ins.IsValid(error) && search.IsValid(error) &&
+         covariance.IsValid(error) && surface_observability.IsValid(error) &&
+         evidence.IsValid(error) && verdict.IsValid(error) &&
+         refinement.IsValid(error);
 }
 
 RegistrationOptions WithSharedValues(RegistrationOptions options) {

@@ -24,6 +24,7 @@
 #include "robust/estimators/teaser.h"
 #include "robust/registration/front_end.h"
 #include "robust/registration/ins.h"
+#include "robust/registration/pose_search.h"
 #include "robust/registration/refinement.h"
 #include "robust/verdict/evidence.h"
 #include "robust/verdict/surface_observability.h"
@@ -57,6 +58,10 @@ struct RegistrationOptions {
 
   // Roll and pitch from an INS, and which way is up.
   InsOptions ins;
+
+  // What is tried if the estimator's pose is not registered. For two clouds and
+  // methods that search (robust/registration/methods.h).
+  PoseSearchOptions search;
 
   CovarianceOptions covariance;
   SurfaceObservabilityOptions surface_observability;

@@ -38,6 +38,7 @@ RegistrationOptions WithoutExtensions() {
   options.quatro.replace_missed_optimum = false;
   options.quatro.recover_translation = false;
   options.quatro.polish = false;
+  options.search.max_rung = 0;
   return options;
 }
 

@@ -15,6 +15,7 @@
 #include "features/base/stopwatch.h"
 #include "features/base/types.h"
 #include "robust/estimators/pose_summary.h"
+#include "robust/registration/pose_search.h"
 #include "robust/registration/refinement.h"
 #include "robust/verdict/surface_observability.h"
 #include "robust/verdict/verdict.h"
@@ -46,6 +47,12 @@ struct RegistrationSummary {
   // Which directions the surfaces constrain. The others are also among the
   // unobservable directions of solution.covariance.
   std::optional<SurfaceObservability> surface_observability;
+
+  // Which rung gave the answer (robust/registration/ladder.h): 0 is the
+  // estimator by itself. The candidates of all rungs that were tried, the best
+  // of each first.
+  int rung = 0;
+  std::vector<PoseCandidate> candidates;
 
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;

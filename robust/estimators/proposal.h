@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A candidate pose, before geometry has chosen among the candidates
+// (robust/verdict/geometric_score.h).
+
+#ifndef QUATRO_ROBUST_ESTIMATORS_PROPOSAL_H_
+#define QUATRO_ROBUST_ESTIMATORS_PROPOSAL_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "features/base/rigid3.h"
+
+namespace quatro {
+
+// One candidate.
+struct Proposal {
+  Rigid3 target_from_source;
+  std::string origin;                 // The proposer, for example "consensus".
+  std::vector<Eigen::Index> inliers;  // Columns of the matches, ascending.
+
+  // How much better than chance the inliers explain the matches [nat].
+  double log_likelihood_ratio = 0.0;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_ESTIMATORS_PROPOSAL_H_

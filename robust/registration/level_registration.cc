@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/registration/level_registration.h"
+
+#include <utility>
+
+#include "robust/estimators/bound_solver.h"
+#include "robust/registration/refinement.h"
+#include "robust/verdict/evidence.h"
+#include "robust/verdict/summary_covariance.h"
+
+namespace quatro {
+namespace {
+
+class LevelRegistration {
+ public:
+  LevelRegistration(const PointsRef& matched_source,
+                    const PointsRef& matched_target,
+                    const LevelProblem& problem,
+                    RegistrationSummary* summary)
+      : matched_source_(matched_source),
+        matched_target_(matched_target),
+        source_(problem.source),
+        target_(problem.target),
+        bounds_(problem.bounds),
+        options_(problem.options),
+        solver_(problem.solver),
+        summary_(*summary) {}
+
+  void Run() {
+    Estimate();
+    if (source_ && summary_.solution.IsUsable()) {
+      Refine();
+      WeighGeometry();
+    }
+    Judge();
+  }
+
+ private:
+  void FinishStage(const char* stage) {
+    summary_.stage_times.push_back({stage, stopwatch_.Lap()});
+    if (options_.progress) options_.progress(summary_.stage_times.back());
+  }
+
+  void Estimate() {
+    const PoseSolver solve = [this](const PointsRef& p, const PointsRef& q) {
+      return SolveLevel(p, q, solver_, options_.noise_bound, options_.ins);
+    };
+    summary_.solution = BoundSolver(solve, bounds_, options_.noise_bound)(
+        matched_source_, matched_target_);
+    AddCovariance(matched_source_,
+                  matched_target_,
+                  options_.noise_bound,
+                  options_.covariance,
+                  &summary_.solution);
+    stopwatch_.Lap();
+    for (const StageTime& time : summary_.solution.stage_times) {
+      summary_.stage_times.push_back(time);
+      if (options_.progress) options_.progress(time);
+    }
+  }
+
+  void Refine() {
+    if (options_.refinement.method == RefinementMethod::kNone) return;
+    RefinementSummary refinement =
+        quatro::Refine(*source_,
+                       *target_,
+                       matched_source_,
+                       matched_target_,
+                       options_.noise_bound,
+                       *summary_.solution.target_from_source,
+                       options_.refinement);
+    if (!bounds_.Contain(refinement.target_from_source, options_.noise_bound)) {
+      refinement.is_accepted = false;
+      refinement.message = "the refined pose is outside of the bounds";
+      refinement.target_from_source = refinement.unrefined_target_from_source;
+    }
+    summary_.solution.target_from_source = refinement.target_from_source;
+    summary_.refinement = std::move(refinement);
+    FinishStage("refinement");
+  }
+
+  // What the clouds say about the pose, and which directions they constrain.
+  void WeighGeometry() {
+    const Rigid3& pose = *summary_.solution.target_from_source;
+    const double voxel_size = options_.front_end.voxel_size;
+    const int num_threads = options_.num_threads;
+    EvidenceOptions evidence = options_.evidence;
+    evidence.rival.bounds = bounds_;
+    const MutualContacts contacts =
+        FindMutualContacts(*source_,
+                           *target_,
+                           pose,
+                           evidence.MaxDistance(voxel_size),
+                           num_threads);
+    summary_.surface_observability =
+        MeasureSurfaceObservability(*source_,
+                                    *target_,
+                                    pose,
+                                    contacts,
+                                    options_.surface_observability,
+                                    num_threads);
+    if (summary_.surface_observability) {
+      auto& unobservable = summary_.solution.covariance->unobservable;
+      const auto& more = summary_.surface_observability->unobservable;
+      unobservable.insert(unobservable.end(), more.begin(), more.end());
+    }
+    geometry_ = MeasureGeometricEvidence(
+        *source_, *target_, pose, contacts, voxel_size, evidence, num_threads);
+    FinishStage("evidence");
+  }
+
+  void Judge() {
+    VerdictOptions verdict = options_.verdict;
+    verdict.rival.bounds = bounds_;
+    summary_.verdict = quatro::Judge(matched_source_,
+                                     matched_target_,
+                                     summary_.solution,
+                                     options_.noise_bound,
+                                     geometry_,
+                                     verdict);
+    FinishStage("verdict");
+  }
+
+  const PointsRef& matched_source_;
+  const PointsRef& matched_target_;
+  const DescribedCloud* source_;
+  const DescribedCloud* target_;
+  const PoseBounds& bounds_;
+  const RegistrationOptions& options_;
+  const PoseSolver& solver_;
+  RegistrationSummary& summary_;
+  Stopwatch stopwatch_;
+  std::optional<GeometricEvidence> geometry_;
+};
+
+}  // namespace
+
+void RegisterLevel(const PointsRef& matched_source,
+                   const PointsRef& matched_target,
+                   const LevelProblem& problem,
+                   RegistrationSummary* summary) {
+  LevelRegistration(matched_source, matched_target, problem, summary).Run();
+}
+
+}  // namespace quatro

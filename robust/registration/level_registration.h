@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// All that follows the matches, with z up:
+//
+//   matches -> estimator -> covariance -> refinement -> geometric evidence
+//           -> verdict
+
+#ifndef QUATRO_ROBUST_REGISTRATION_LEVEL_REGISTRATION_H_
+#define QUATRO_ROBUST_REGISTRATION_LEVEL_REGISTRATION_H_
+
+#include "features/base/types.h"
+#include "features/described_cloud.h"
+#include "robust/estimators/pose_bounds.h"
+#include "robust/estimators/pose_summary.h"
+#include "robust/registration/options.h"
+#include "robust/registration/summary.h"
+
+namespace quatro {
+
+// What an attempt needs besides matches; everything must outlive the attempt.
+struct LevelProblem {
+  const DescribedCloud* source;  // Null without clouds.
+  const DescribedCloud* target;
+  const PoseBounds& bounds;
+  const RegistrationOptions& options;  // With shared values.
+  const PoseSolver& solver;
+};
+
+// Adds pose, verdict and stage times to the summary. Column i of
+// `matched_source` is matched with column i of `matched_target` [m].
+void RegisterLevel(const PointsRef& matched_source,
+                   const PointsRef& matched_target,
+                   const LevelProblem& problem,
+                   RegistrationSummary* summary);
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_LEVEL_REGISTRATION_H_

@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+
+#include "robust/registration/pose_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "features/base/parallel.h"
+#include "robust/estimators/consensus_search.h"
+#include "robust/verdict/structure.h"
+#include "solvers/local/vgicp.h"
+
+namespace quatro {
+namespace {
+
+// Points of the source that VG-ICP aligns, two thirds of them structure.
+constexpr std::size_t kNumAlignedPoints = 1500;
+
+// VG-ICP first pulls from afar, then settles [voxel sizes of the clouds].
+constexpr double kCoarseVoxels = 20.0 / 3.0;
+constexpr double kFineVoxels = 10.0 / 3.0;
+constexpr int kCoarseIterations = 10;
+constexpr int kFineIterations = 20;
+
+// Two candidates are alike if they differ by less than both.
+constexpr double kSameRotation = 0.035;  // [rad]
+constexpr double kSameShift = 2.0;       // [noise bounds]
+
+// VG-ICP cannot number the voxels of a wider cloud [voxel sizes].
+constexpr double kMaxWidth = 1e6;
+
+// Every k-th of the points, so that at most `num_wanted` are left.
+void Thin(const std::vector<Eigen::Index>& from,
+          std::size_t num_wanted,
+          std::vector<Eigen::Index>* to) {
+  const std::size_t num = std::min(num_wanted, from.size());
+  for (std::size_t k = 0; k < num; ++k) {
+    to->push_back(from[k * from.size() / num]);
+  }
+}
+
+DescribedCloud SampleForAlignment(const DescribedCloud& cloud) {
+  std::vector<Eigen::Index> structure, ground, kept;
+  for (Eigen::Index i = 0; i < cloud.normals.cols(); ++i) {
+    if (cloud.normals.col(i).isZero(0.0)) continue;
+    (IsStructure(cloud.normals.col(i)) ? structure : ground).push_back(i);
+  }
+  Thin(ground, kNumAlignedPoints / 3, &kept);
+  Thin(structure, kNumAlignedPoints - kNumAlignedPoints / 3, &kept);
+  DescribedCloud sample;
+  const auto num = static_cast<Eigen::Index>(kept.size());
+  Points points(3, num);
+  sample.normals.resize(3, num);
+  for (Eigen::Index k = 0; k < num; ++k) {
+    const Eigen::Index i = kept[static_cast<std::size_t>(k)];
+    points.col(k) = cloud.points().col(i);
+    sample.normals.col(k) = cloud.normals.col(i);
+  }
+  sample.tree = std::make_shared<const KdTree>(std::move(points));
+  sample.sensor = cloud.sensor;
+  sample.is_scan = cloud.is_scan;
+  return sample;
+}
+
+double Width(const Points& points) {
+  return points.cols() == 0
+             ? 0.0
+             : (points.rowwise().maxCoeff() - points.rowwise().minCoeff())
+                   .maxCoeff();
+}
+
+}  // namespace
+
+bool PoseSearchOptions::IsValid(std::string* error) const {
+  std::ostringstream problem;
+  if (max_rung < 0) {
+    problem << "search.max_rung = " << max_rung << ", must be >= 0";
+  } else if (max_num_proposals < 1) {
+    problem << "search.max_num_proposals = " << max_num_proposals
+            << ", must be >= 1";
+  } else if (num_aligned < 1) {
+    problem << "search.num_aligned = " << num_aligned << ", must be >= 1";
+  } else if (!(max_tilt >= 0.0 && max_tilt <= M_PI / 4.0)) {
+    problem << "search.max_tilt = " << max_tilt << ", must be in [0, pi/4]";
+  } else if (!(bound_factor > 0.0 && std::isfinite(bound_factor))) {
+    problem << "search.bound_factor = " << bound_factor
+            << ", must be > 0 and finite";
+  }
+  *error = problem.str();
+  return error->empty();
+}
+
+double PoseCandidate::Score() const {
+  return geometry.value() * std::sqrt(log_likelihood_ratio);
+}
+
+// VG-ICP from a sample of the source, with the voxels of the target at hand.
+struct PoseSearch::Aligner {
+  Aligner(const DescribedCloud& source,
+          const DescribedCloud& target,
+          double voxel_size)
+      : sample(SampleForAlignment(source)),
+        coarse(Stage(kCoarseVoxels * voxel_size, kCoarseIterations)),
+        fine(Stage(kFineVoxels * voxel_size, kFineIterations)),
+        coarse_terms(MakeVgicpTerms(sample, target, coarse)),
+        fine_terms(MakeVgicpTerms(sample, target, fine)) {}
+
+  static VgicpOptions Stage(double voxel_size, int num_iterations) {
+    VgicpOptions options;
+    options.voxel_size = voxel_size;
+    options.alignment.max_correspondence_distance = voxel_size;
+    options.alignment.translation_tolerance = 0.01 * voxel_size;
+    options.alignment.rotation_tolerance = 1e-3;
+    options.alignment.max_num_iterations = num_iterations;
+    options.alignment.min_conditioning = 0.0;
+    return options;
+  }
+
+  Rigid3 Align(const Rigid3& from) const {
+    Rigid3 pose = from;
+    for (const auto& [stage, terms] : {std::pair{&coarse, coarse_terms.get()},
+                                       std::pair{&fine, fine_terms.get()}}) {
+      pose = AlignLocally(pose, stage->alignment, terms)
+                 .target_from_source.value_or(pose);
+    }
+    return pose;
+  }
+
+  DescribedCloud sample;
+  VgicpOptions coarse;
+  VgicpOptions fine;
+  std::unique_ptr<AlignmentTerms> coarse_terms;
+  std::unique_ptr<AlignmentTerms> fine_terms;
+};
+
+PoseSearch::PoseSearch(const DescribedCloud& source,
+                       const DescribedCloud& target,
+                       double max_distance,
+                       double voxel_size,
+                       double noise_bound,
+                       const PoseSearchOptions& options,
+                       int num_threads)
+    : source_(source),
+      target_(target),
+      noise_bound_(noise_bound),
+      options_(options),
+      num_threads_(num_threads),
+      scorer_(source, target, max_distance, voxel_size, num_threads) {
+  if (std::max(Width(source.points()), Width(target.points())) <
+      kMaxWidth * voxel_size) {
+    aligner_ = std::make_unique<Aligner>(source, target, voxel_size);
+  }
+}
+
+PoseSearch::~PoseSearch() = default;
+
+std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
+                                            const PointsRef& matched_target,
+                                            const std::string& origin,
+                                            const PoseBounds& bounds) const {
+  if (!aligner_) return {};
+  ConsensusSearchOptions consensus;
+  consensus.noise_bound = options_.bound_factor * noise_bound_;
+  consensus.max_tilt = options_.max_tilt;
+  consensus.max_num_proposals = options_.max_num_proposals;
+  consensus.source_center = source_.sensor;
+  consensus.target_center = target_.sensor;
+  consensus.num_threads = num_threads_;
+  const std::vector<Proposal> proposals =
+      SearchConsensus(matched_source, matched_target, consensus);
+
+  std::vector<PoseCandidate> candidates(proposals.size());
+  const auto score = [&](PoseCandidate* candidate) {
+    candidate->geometry = scorer_.At(candidate->target_from_source);
+  };
+  const auto for_all = [&](const auto& body) {
+    ParallelFor(num_threads_,
+                static_cast<Eigen::Index>(candidates.size()),
+                1,
+                [&](Eigen::Index begin, Eigen::Index end) {
+                  for (Eigen::Index k = begin; k < end; ++k) {
+                    body(&candidates[static_cast<std::size_t>(k)]);
+                  }
+                });
+  };
+  const auto sort = [&] {
+    std::stable_sort(candidates.begin(),
+                     candidates.end(),
+                     [](const PoseCandidate& a, const PoseCandidate& b) {
+                       return a.Score() > b.Score();
+                     });
+  };
+  for (std::size_t k = 0; k < proposals.size(); ++k) {
+    candidates[k].target_from_source = proposals[k].target_from_source;
+    candidates[k].origin = origin;
+    candidates[k].log_likelihood_ratio = proposals[k].log_likelihood_ratio;
+  }
+  for_all(score);
+  sort();
+  candidates.resize(std::min(candidates.size(),
+                             static_cast<std::size_t>(options_.num_aligned)));
+  for_all([&](PoseCandidate* candidate) {
+    candidate->target_from_source =
+        aligner_->Align(candidate->target_from_source);
+    score(candidate);
+  });
+  sort();
+
+  const Eigen::Vector3d middle = matched_source.rowwise().mean();
+  std::vector<PoseCandidate> kept;
+  for (PoseCandidate& candidate : candidates) {
+    const Rigid3& pose = candidate.target_from_source;
+    const bool is_new =
+        std::none_of(kept.begin(), kept.end(), [&](const PoseCandidate& other) {
+          const Rigid3& better = other.target_from_source;
+          return AngleBetween(pose.rotation, better.rotation) < kSameRotation &&
+                 (pose * middle - better * middle).norm() <
+                     kSameShift * noise_bound_;
+        });
+    if (is_new && bounds.Contain(pose, noise_bound_)) {
+      kept.push_back(std::move(candidate));
+    }
+  }
+  return kept;
+}
+
+}  // namespace quatro

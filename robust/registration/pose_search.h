@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// Proposes many poses and lets the geometry of both scans choose among them:
+//
+//   matches -> consensus search (robust/estimators/consensus_search.h)
+//           -> geometric score of each proposal, the best are kept
+//           -> VG-ICP in SE(3) from each of these (solvers/local/vgicp.h)
+//           -> geometric score again: candidates, the best first
+//
+// Far apart, one match in a hundred is true, and the largest consensus by
+// chance is as large as the true one. Structure that coincides tells them
+// apart. A candidate is ordered by
+//
+//   score(T) * sqrt(log-likelihood ratio of its matches),                  (1)
+//
+// the latter being about the number of standard deviations by which its
+// consensus exceeds chance.
+
+#ifndef QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
+#define QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "features/base/rigid3.h"
+#include "features/base/types.h"
+#include "features/described_cloud.h"
+#include "robust/estimators/pose_bounds.h"
+#include "robust/estimators/proposal.h"
+#include "robust/verdict/geometric_score.h"
+#include "solvers/local/local_alignment.h"
+
+namespace quatro {
+
+// How far the search goes.
+struct PoseSearchOptions {
+  // Rungs beyond the estimator's own answer that are tried until one is
+  // registered; 0: none.
+  int max_rung = 2;
+
+  int max_num_proposals = 128;
+  int num_aligned = 16;  // Proposals from which VG-ICP starts.
+
+  double max_tilt = 0.1;  // Of the consensus search [rad].
+
+  // The radius of matches for the search and for what follows, in noise bounds.
+  double bound_factor = 2.0;
+
+  // Returns false and says why in *error if a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+// A pose, where it came from, and what speaks for it.
+struct PoseCandidate {
+  Rigid3 target_from_source;
+  std::string origin;  // Of the proposal.
+  double log_likelihood_ratio = 0.0;
+  GeometricScore geometry;
+
+  // (1)
+  double Score() const;
+};
+
+// The search between two scans, whose grids are built once. The clouds must
+// outlive the search; z is up. Points within `max_distance` overlap;
+// `voxel_size` is that of the clouds and `noise_bound` that of the matches, all
+// in [m].
+class PoseSearch {
+ public:
+  PoseSearch(const DescribedCloud& source,
+             const DescribedCloud& target,
+             double max_distance,
+             double voxel_size,
+             double noise_bound,
+             const PoseSearchOptions& options,
+             int num_threads);
+  ~PoseSearch();
+
+  // The candidates within the bounds, the best first, no two alike. Column i of
+  // `matched_source` is matched with column i of `matched_target` [m].
+  std::vector<PoseCandidate> Find(const PointsRef& matched_source,
+                                  const PointsRef& matched_target,
+                                  const std::string& origin,
+                                  const PoseBounds& bounds) const;
+
+  // The score of any pose.
+  GeometricScore ScoreOf(const Rigid3& target_from_source) const {
+    return scorer_.At(target_from_source);
+  }
+
+ private:
+  struct Aligner;
+
+  const DescribedCloud& source_;
+  const DescribedCloud& target_;
+  double noise_bound_;
+  PoseSearchOptions options_;
+  int num_threads_;
+  GeometricScorer scorer_;
+  std::unique_ptr<Aligner> aligner_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_

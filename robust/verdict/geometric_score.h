@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// A quick score by which candidate poses of two scans are compared,
+//
+//   score(T) = min over both ways of  overlapping / (in range + c)
+//              * (1 - contradicted share)^2,                               (1)
+//
+// from samples of the structure (robust/verdict/structure.h) of each scan. A
+// point is in range and overlapping by robust/verdict/structure_grid.h; it is
+// contradicted if the other scan saw free space there
+// (robust/verdict/free_space.h). The constant c lowers the score of poses that
+// bring few points into range, where a large share may be chance.
+//
+// The score orders candidates. Whether the best one is correct is decided by
+// the verdict, which measures the same on all points (robust/verdict/
+// evidence.h).
+
+#ifndef QUATRO_ROBUST_VERDICT_GEOMETRIC_SCORE_H_
+#define QUATRO_ROBUST_VERDICT_GEOMETRIC_SCORE_H_
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "features/base/rigid3.h"
+#include "features/described_cloud.h"
+#include "robust/verdict/free_space.h"
+#include "robust/verdict/structure_grid.h"
+
+namespace quatro {
+
+// The parts of (1), each in [0, 1].
+struct GeometricScore {
+  double overlap = 0.0;             // The first factor.
+  double contradicted_share = 0.0;  // Of the points whose sight is known.
+
+  double value() const {
+    return overlap * (1.0 - contradicted_share) * (1.0 - contradicted_share);
+  }
+};
+
+// Built once for a pair of scans; a pose then takes tens of microseconds.
+class GeometricScorer {
+ public:
+  // Points within `max_distance` overlap; `voxel_size` is that of the clouds,
+  // both in [m]. z is up.
+  GeometricScorer(const DescribedCloud& source,
+                  const DescribedCloud& target,
+                  double max_distance,
+                  double voxel_size,
+                  int num_threads);
+
+  // The score of a pose. Thread-safe.
+  GeometricScore At(const Rigid3& target_from_source) const;
+
+ private:
+  // One scan, as seen by the other.
+  struct Scan {
+    StructureGrid grid;
+    StructureSample sample;
+    std::optional<RangeImage> image;  // Only if the cloud is a scan.
+  };
+
+  double max_distance_;
+  std::optional<Scan> source_;
+  std::optional<Scan> target_;
+};
+
+}  // namespace quatro
+
+#endif  // QUATRO_ROBUST_VERDICT_GEOMETRIC_SCORE_H_
