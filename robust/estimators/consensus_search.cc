@@ -17,26 +17,26 @@
 namespace quatro {
 namespace {
 
-// Cells are as wide as the bound. They repeat after kNumCells in x and in y,
-// which bounds the memory; what coincides by that alone is lost in the
-// refinement, where every match is compared with the pose itself.
-constexpr int kNumCells = 512;
-constexpr std::size_t kMask = kNumCells - 1;
+// Cells are as wide as the bound. They repeat after a power of two in x and in
+// y, which bounds the memory. Matches that share a cell by that alone are
+// separated in the refinement, where every match is compared with the pose.
+constexpr int kMinNumCells = 256;
+constexpr int kMaxNumCells = 1024;
 
 constexpr int kNumPerYaw = 16;        // Fullest cells of one yaw that are kept.
-constexpr int kRefinedPerWanted = 4;  // Refined for each proposal wanted.
+constexpr int kRefinedPerWanted = 2;  // Refined for each proposal wanted.
 constexpr int kNumRefinements = 3;
 constexpr Eigen::Index kYawsPerPiece = 8;
 
-// A farther coordinate cannot be compared with the bound [r].
-constexpr double kMaxBounds = 1e9;
+// Single precision cannot compare a farther coordinate with the bound [r].
+constexpr double kMaxBounds = 1e5;
 
-// The fullest cells of a yaw.
+// A block of two by two cells, by its lower corner.
 struct Cell {
   int votes = 0;
   int yaw = 0;  // The step.
-  std::uint32_t x = 0;
-  std::uint32_t y = 0;
+  int x = 0;
+  int y = 0;
 };
 
 bool IsBefore(const Cell& a, const Cell& b) {
@@ -97,6 +97,10 @@ CenteredMatches Center(const PointsRef& source,
   return matches;
 }
 
+float Extent(const Points& points) {
+  return static_cast<float>(points.topRows<2>().cwiseAbs().maxCoeff());
+}
+
 // A turn of one step moves a point of typical range by one bound.
 int NumYaws(const CenteredMatches& matches) {
   std::vector<double> ranges(static_cast<std::size_t>(matches.source.cols()));
@@ -110,48 +114,49 @@ int NumYaws(const CenteredMatches& matches) {
   return static_cast<int>(std::clamp(2.0 * M_PI * *at, 60.0, 720.0));
 }
 
+// The coordinates of all matches, row by row.
+struct Rows {
+  explicit Rows(const CenteredMatches& matches)
+      : px(matches.source.row(0).cast<float>()),
+        py(matches.source.row(1).cast<float>()),
+        qx(matches.target.row(0).cast<float>()),
+        qy(matches.target.row(1).cast<float>()),
+        dz((matches.target.row(2) - matches.source.row(2)).cast<float>()),
+        range((px.square() + py.square()).sqrt()) {}
+
+  Eigen::ArrayXf px, py, qx, qy;
+  Eigen::ArrayXf dz;     // q - p.
+  Eigen::ArrayXf range;  // |p_xy|
+};
+
 // Votes of all matches at one yaw, and the fullest blocks of two by two cells.
 class Ballot {
  public:
-  explicit Ballot(const CenteredMatches& matches)
-      : source_(matches.source.topRows<2>().cast<float>()),
-        target_(matches.target.topRows<2>().cast<float>()),
-        corners_(static_cast<std::size_t>(source_.cols())),
-        votes_(kNumCells * kNumCells) {}
+  Ballot(const Rows& rows, int num_cells)
+      : rows_(rows),
+        num_cells_(num_cells),
+        votes_(static_cast<std::size_t>(num_cells) *
+               static_cast<std::size_t>(num_cells)) {}
 
   void Count(double yaw, int step, std::vector<Cell>* fullest) {
-    const auto cosine = static_cast<float>(std::cos(yaw));
-    const auto sine = static_cast<float>(std::sin(yaw));
+    const auto c = static_cast<float>(std::cos(yaw));
+    const auto s = static_cast<float>(std::sin(yaw));
     std::fill(votes_.begin(), votes_.end(), std::uint16_t{0});
-    for (Eigen::Index i = 0; i < source_.cols(); ++i) {
-      const float x =
-          target_(0, i) - cosine * source_(0, i) + sine * source_(1, i);
-      const float y =
-          target_(1, i) - sine * source_(0, i) - cosine * source_(1, i);
-      const auto at_x =
-          static_cast<std::size_t>(static_cast<std::int64_t>(std::floor(x)));
-      const auto at_y =
-          static_cast<std::size_t>(static_cast<std::int64_t>(std::floor(y)));
-      const std::array<std::size_t, 2> rows = {
-          (at_x & kMask) * kNumCells, ((at_x - 1) & kMask) * kNumCells};
-      const std::array<std::size_t, 2> columns = {at_y & kMask,
-                                                  (at_y - 1) & kMask};
-      corners_[static_cast<std::size_t>(i)] = {rows, columns};
-      for (const std::size_t row : rows) {
-        for (const std::size_t column : columns) ++votes_[row + column];
+    x_ = (rows_.qx - c * rows_.px + s * rows_.py).floor().cast<int>();
+    y_ = (rows_.qy - s * rows_.px - c * rows_.py).floor().cast<int>();
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      for (const int x : {x_[i] - 1, x_[i]}) {
+        for (const int y : {y_[i] - 1, y_[i]}) ++At(x, y);
       }
     }
-    int least = 2;
+    int least = 3;
     const std::size_t begin = fullest->size();
-    for (const auto& [rows, columns] : corners_) {
-      for (const std::size_t row : rows) {
-        for (const std::size_t column : columns) {
-          std::uint16_t& votes = votes_[row + column];
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      for (const int x : {x_[i] - 1, x_[i]}) {
+        for (const int y : {y_[i] - 1, y_[i]}) {
+          std::uint16_t& votes = At(x, y);
           if (votes < least) continue;
-          fullest->push_back({votes,
-                              step,
-                              static_cast<std::uint32_t>(row / kNumCells),
-                              static_cast<std::uint32_t>(column)});
+          fullest->push_back({votes, step, x, y});
           votes = 0;
           if (fullest->size() - begin >= 8 * kNumPerYaw) {
             Keep(begin, fullest);
@@ -164,10 +169,11 @@ class Ballot {
   }
 
  private:
-  struct Corners {
-    std::array<std::size_t, 2> rows;
-    std::array<std::size_t, 2> columns;
-  };
+  std::uint16_t& At(int x, int y) {
+    const int mask = num_cells_ - 1;
+    return votes_[static_cast<std::size_t>((x & mask) * num_cells_ +
+                                           (y & mask))];
+  }
 
   static void Keep(std::size_t begin, std::vector<Cell>* fullest) {
     const auto first = fullest->begin() + static_cast<std::ptrdiff_t>(begin);
@@ -175,11 +181,31 @@ class Ballot {
     fullest->resize(std::min(fullest->size(), begin + kNumPerYaw));
   }
 
-  Eigen::Matrix2Xf source_;
-  Eigen::Matrix2Xf target_;
-  std::vector<Corners> corners_;
+  const Rows& rows_;
+  int num_cells_;
+  Eigen::ArrayXi x_, y_;
   std::vector<std::uint16_t> votes_;  // y fastest.
 };
+
+// Leaves out blocks next to a fuller one, in yaw and place, which would be
+// refined to the same pose. `cells` are sorted.
+std::vector<Cell> WithoutNeighbors(const std::vector<Cell>& cells,
+                                   int num_yaws,
+                                   std::size_t num_wanted) {
+  std::vector<Cell> kept;
+  for (const Cell& cell : cells) {
+    const bool has_neighbor =
+        std::any_of(kept.begin(), kept.end(), [&](const Cell& other) {
+          const int turn = std::abs(cell.yaw - other.yaw);
+          return std::min(turn, num_yaws - turn) <= 1 &&
+                 std::abs(cell.x - other.x) <= 1 &&
+                 std::abs(cell.y - other.y) <= 1;
+        });
+    if (!has_neighbor) kept.push_back(cell);
+    if (kept.size() == num_wanted) break;
+  }
+  return kept;
+}
 
 // One cell, refined: in bounds, from the middles.
 struct Refined {
@@ -215,102 +241,123 @@ double Stab(const std::vector<std::pair<double, double>>& value_and_reach) {
 class Refinement {
  public:
   Refinement(const CenteredMatches& matches,
+             const Rows& rows,
              const ConsensusSearchOptions& options)
-      : matches_(matches), slope_(std::tan(options.max_tilt)) {}
+      : matches_(matches),
+        rows_(rows),
+        reach_(1.0f +
+               static_cast<float>(std::tan(options.max_tilt)) * rows.range),
+        share_(rows.range.unaryExpr([](float range) {
+          return range > 1.0f
+                     ? std::asin(1.0f / range) / static_cast<float>(M_PI)
+                     : 0.5f;
+        })) {}
 
-  // Nullopt if the cell is empty, or its matches do not determine a yaw.
+  // Nullopt if the block is empty, or its matches do not determine a yaw.
   std::optional<Refined> At(double yaw, double x, double y) const {
     Refined refined;
     refined.yaw = yaw;
     refined.translation << x, y, 0.0;
-    double bound = 1.5;
-    if (!FindHeight(bound, &refined)) return std::nullopt;
+    const std::vector<Eigen::Index> near = FindNear(1.5, refined);
+    if (near.size() < 2) return std::nullopt;
+    refined.translation.z() = FindHeight(near);
+    Collect(near, 1.5, &refined);
     for (int round = 0; round < kNumRefinements; ++round) {
-      Collect(bound, &refined);
-      const auto num = static_cast<Eigen::Index>(refined.inliers.size());
-      if (num < 2) return std::nullopt;
-      Points p(3, num), q(3, num);
-      for (Eigen::Index k = 0; k < num; ++k) {
-        const Eigen::Index i = refined.inliers[static_cast<std::size_t>(k)];
-        p.col(k) = matches_.source.col(i);
-        q.col(k) = matches_.target.col(i);
-      }
-      const auto estimate = EstimateYawTranslation(p, q, Weights::Ones(num));
-      if (!estimate) return std::nullopt;
-      refined.yaw = estimate->yaw;
-      refined.translation = estimate->target_from_source.translation;
-      bound = 1.0;
+      if (!Fit(&refined)) return std::nullopt;
+      Collect(FindNear(1.0, refined), 1.0, &refined);
     }
-    Collect(bound, &refined);
     refined.ratio = LogLikelihoodRatio(refined);
     return refined;
   }
 
  private:
-  Eigen::Vector2d Turned(Eigen::Index i, double cosine, double sine) const {
-    const auto p = matches_.source.col(i);
-    return {cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()};
+  // The matches with |e_xy| <= bound, by single precision.
+  std::vector<Eigen::Index> FindNear(double bound,
+                                     const Refined& refined) const {
+    const auto c = static_cast<float>(std::cos(refined.yaw));
+    const auto s = static_cast<float>(std::sin(refined.yaw));
+    const auto x = static_cast<float>(refined.translation.x());
+    const auto y = static_cast<float>(refined.translation.y());
+    const auto squared_bound = static_cast<float>(bound * bound);
+    const Eigen::Array<bool, Eigen::Dynamic, 1> is_near =
+        (rows_.qx - c * rows_.px + s * rows_.py - x).square() +
+            (rows_.qy - s * rows_.px - c * rows_.py - y).square() <=
+        squared_bound;
+    std::vector<Eigen::Index> near;
+    for (Eigen::Index i = 0; i < is_near.size(); ++i) {
+      if (is_near[i]) near.push_back(i);
+    }
+    return near;
   }
 
-  double Reach(Eigen::Index i) const {
-    return 1.0 + slope_ * matches_.source.col(i).head<2>().norm();
-  }
-
-  bool FindHeight(double bound, Refined* refined) const {
+  double FindHeight(const std::vector<Eigen::Index>& near) const {
     std::vector<std::pair<double, double>> heights;
-    ForNear(bound, *refined, [&](Eigen::Index i) {
-      heights.emplace_back(matches_.target(2, i) - matches_.source(2, i),
-                           Reach(i));
-    });
-    if (heights.size() < 2) return false;
-    refined->translation.z() = Stab(heights);
+    heights.reserve(near.size());
+    for (const Eigen::Index i : near) {
+      heights.emplace_back(rows_.dz[i], reach_[i]);
+    }
+    return Stab(heights);
+  }
+
+  void Collect(const std::vector<Eigen::Index>& near,
+               double bound,
+               Refined* refined) const {
+    const double cosine = std::cos(refined->yaw);
+    const double sine = std::sin(refined->yaw);
+    refined->inliers.clear();
+    for (const Eigen::Index i : near) {
+      const auto p = matches_.source.col(i);
+      const auto q = matches_.target.col(i);
+      const Eigen::Vector3d error(
+          q.x() - cosine * p.x() + sine * p.y() - refined->translation.x(),
+          q.y() - sine * p.x() - cosine * p.y() - refined->translation.y(),
+          q.z() - p.z() - refined->translation.z());
+      if (error.head<2>().norm() <= bound && std::abs(error.z()) <= reach_[i]) {
+        refined->inliers.push_back(i);
+      }
+    }
+  }
+
+  // Least squares on the inliers.
+  bool Fit(Refined* refined) const {
+    const auto num = static_cast<Eigen::Index>(refined->inliers.size());
+    Points p(3, num), q(3, num);
+    for (Eigen::Index k = 0; k < num; ++k) {
+      const Eigen::Index i = refined->inliers[static_cast<std::size_t>(k)];
+      p.col(k) = matches_.source.col(i);
+      q.col(k) = matches_.target.col(i);
+    }
+    const auto estimate = EstimateYawTranslation(p, q, Weights::Ones(num));
+    if (!estimate) return false;
+    refined->yaw = estimate->yaw;
+    refined->translation = estimate->target_from_source.translation;
     return true;
   }
 
-  void Collect(double bound, Refined* refined) const {
-    refined->inliers.clear();
-    ForNear(bound, *refined, [&](Eigen::Index i) {
-      const double error = matches_.target(2, i) - matches_.source(2, i) -
-                           refined->translation.z();
-      if (std::abs(error) <= Reach(i)) refined->inliers.push_back(i);
-    });
-  }
-
-  template <typename Visit>
-  void ForNear(double bound, const Refined& refined, const Visit& visit) const {
-    const double cosine = std::cos(refined.yaw);
-    const double sine = std::sin(refined.yaw);
-    const Eigen::Vector2d shift = refined.translation.head<2>();
-    for (Eigen::Index i = 0; i < matches_.source.cols(); ++i) {
-      const Eigen::Vector2d error =
-          matches_.target.col(i).head<2>() - Turned(i, cosine, sine) - shift;
-      if (error.squaredNorm() <= bound * bound) visit(i);
-    }
-  }
-
-  // (2) and (3). A match is an inlier at a share of about asin(1 / |p|) / pi of
-  // all yaws, provided that | |q - t| - |p| | <= 1.
+  // (2) and (3). A match is an inlier at a share of asin(1 / |p|) / pi of all
+  // yaws, provided that | |q - t| - |p| | <= 1.
   double LogLikelihoodRatio(const Refined& refined) const {
-    const Eigen::Vector2d shift = refined.translation.head<2>();
-    double expected = 0.0;
-    for (Eigen::Index i = 0; i < matches_.source.cols(); ++i) {
-      const double p = matches_.source.col(i).head<2>().norm();
-      const double q = (matches_.target.col(i).head<2>() - shift).norm();
-      if (std::abs(q - p) > 1.0) continue;
-      const double error = matches_.target(2, i) - matches_.source(2, i) -
-                           refined.translation.z();
-      if (std::abs(error) > Reach(i)) continue;
-      expected += p > 1.0 ? std::asin(1.0 / p) / M_PI : 0.5;
-    }
+    const auto x = static_cast<float>(refined.translation.x());
+    const auto y = static_cast<float>(refined.translation.y());
+    const auto z = static_cast<float>(refined.translation.z());
+    const Eigen::ArrayXf distance =
+        ((rows_.qx - x).square() + (rows_.qy - y).square()).sqrt();
+    const double expected =
+        std::max(0.1f,
+                 ((distance - rows_.range).abs() <= 1.0f &&
+                  (rows_.dz - z).abs() <= reach_)
+                     .select(share_, Eigen::ArrayXf::Zero(share_.size()))
+                     .sum());
     const auto votes = static_cast<double>(refined.inliers.size());
-    expected = std::max(expected, 0.1);
     return votes > expected
                ? votes * std::log(votes / expected) - (votes - expected)
                : 0.0;
   }
 
   const CenteredMatches& matches_;
-  const double slope_;
+  const Rows& rows_;
+  const Eigen::ArrayXf reach_;  // Bounds of |e_z|.
+  const Eigen::ArrayXf share_;  // Of yaws, for (2).
 };
 
 }  // namespace
@@ -340,8 +387,14 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
   const CenteredMatches matches = Center(source, target, options);
   if (matches.source.cols() < 2) return proposals;
 
+  const Rows rows(matches);
   const int num_yaws = NumYaws(matches);
   const double yaw_step = 2.0 * M_PI / num_yaws;
+  const float extent = Extent(matches.source) + Extent(matches.target);
+  int num_cells = kMinNumCells;
+  while (num_cells < kMaxNumCells && static_cast<float>(num_cells) < extent) {
+    num_cells *= 2;
+  }
   std::vector<std::vector<Cell>> cells_of(
       static_cast<std::size_t>((num_yaws + kYawsPerPiece - 1) / kYawsPerPiece));
   ParallelFor(
@@ -349,7 +402,7 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
       num_yaws,
       kYawsPerPiece,
       [&](Eigen::Index begin, Eigen::Index end) {
-        Ballot ballot(matches);
+        Ballot ballot(rows, num_cells);
         for (Eigen::Index k = begin; k < end; ++k) {
           ballot.Count(
               static_cast<double>(k) * yaw_step,
@@ -357,16 +410,16 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
               &cells_of[static_cast<std::size_t>(begin / kYawsPerPiece)]);
         }
       });
-  std::vector<Cell> cells;
-  for (const auto& some : cells_of) {
-    cells.insert(cells.end(), some.begin(), some.end());
-  }
-  std::sort(cells.begin(), cells.end(), IsBefore);
-  cells.resize(std::min(
-      cells.size(),
-      static_cast<std::size_t>(kRefinedPerWanted * options.max_num_proposals)));
+  std::vector<Cell> all;
+  for (const auto& some : cells_of)
+    all.insert(all.end(), some.begin(), some.end());
+  std::sort(all.begin(), all.end(), IsBefore);
+  const std::vector<Cell> cells = WithoutNeighbors(
+      all,
+      num_yaws,
+      static_cast<std::size_t>(kRefinedPerWanted * options.max_num_proposals));
 
-  const Refinement refinement(matches, options);
+  const Refinement refinement(matches, rows, options);
   std::vector<std::optional<Refined>> refined(cells.size());
   ParallelFor(options.num_threads,
               static_cast<Eigen::Index>(cells.size()),
@@ -374,15 +427,8 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
               [&](Eigen::Index begin, Eigen::Index end) {
                 for (Eigen::Index k = begin; k < end; ++k) {
                   const Cell& cell = cells[static_cast<std::size_t>(k)];
-                  // The corner that four cells share.
-                  const auto middle = [](std::uint32_t at) {
-                    const int signed_at = static_cast<int>(at);
-                    return (signed_at < kNumCells / 2 ? signed_at
-                                                      : signed_at - kNumCells) +
-                           1.0;
-                  };
                   refined[static_cast<std::size_t>(k)] = refinement.At(
-                      cell.yaw * yaw_step, middle(cell.x), middle(cell.y));
+                      cell.yaw * yaw_step, cell.x + 1.0, cell.y + 1.0);
                 }
               });
 

@@ -10,7 +10,9 @@
 
 #include "features/base/parallel.h"
 #include "robust/estimators/consensus_search.h"
+#include "robust/registration/vertical.h"
 #include "robust/verdict/structure.h"
+#include "solvers/closed_form/gravity.h"
 #include "solvers/local/vgicp.h"
 
 namespace quatro {
@@ -28,6 +30,9 @@ constexpr int kFineIterations = 20;
 // Two candidates are alike if they differ by less than both.
 constexpr double kSameRotation = 0.035;  // [rad]
 constexpr double kSameShift = 2.0;       // [noise bounds]
+
+// A smaller inclination is left to max_tilt [rad].
+constexpr double kMinInclination = 0.05;
 
 // VG-ICP cannot number the voxels of a wider cloud [voxel sizes].
 constexpr double kMaxWidth = 1e6;
@@ -153,26 +158,65 @@ PoseSearch::PoseSearch(const DescribedCloud& source,
       kMaxWidth * voxel_size) {
     aligner_ = std::make_unique<Aligner>(source, target, voxel_size);
   }
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d source_up = EstimateVertical(source, z).value_or(z);
+  const Eigen::Vector3d target_up = EstimateVertical(target, z).value_or(z);
+  level_from_source_ = RotationBetween(source_up, z);
+  level_from_target_ = RotationBetween(target_up, z);
+  is_inclined_ = std::min(source_up.z(), target_up.z()) <
+                 std::cos(kMinInclination);
 }
 
 PoseSearch::~PoseSearch() = default;
+
+void PoseSearch::Propose(const PointsRef& matched_source,
+                         const PointsRef& matched_target,
+                         const std::string& origin,
+                         const Eigen::Matrix3d& level_from_source,
+                         const Eigen::Matrix3d& level_from_target,
+                         std::vector<PoseCandidate>* candidates) const {
+  ConsensusSearchOptions consensus;
+  consensus.noise_bound = options_.bound_factor * noise_bound_;
+  consensus.max_tilt = options_.max_tilt;
+  consensus.max_num_proposals = options_.max_num_proposals;
+  consensus.source_center = level_from_source * source_.sensor;
+  consensus.target_center = level_from_target * target_.sensor;
+  consensus.num_threads = num_threads_;
+  const Eigen::Matrix3d target_from_level = level_from_target.transpose();
+  for (const Proposal& proposal :
+       SearchConsensus(matched_source, matched_target, consensus)) {
+    const Rigid3& level = proposal.target_from_source;
+    PoseCandidate candidate;
+    candidate.target_from_source = {
+        target_from_level * level.rotation * level_from_source,
+        target_from_level * level.translation};
+    candidate.origin = origin;
+    candidate.log_likelihood_ratio = proposal.log_likelihood_ratio;
+    candidates->push_back(std::move(candidate));
+  }
+}
 
 std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
                                             const PointsRef& matched_target,
                                             const std::string& origin,
                                             const PoseBounds& bounds) const {
-  if (!aligner_) return {};
-  ConsensusSearchOptions consensus;
-  consensus.noise_bound = options_.bound_factor * noise_bound_;
-  consensus.max_tilt = options_.max_tilt;
-  consensus.max_num_proposals = options_.max_num_proposals;
-  consensus.source_center = source_.sensor;
-  consensus.target_center = target_.sensor;
-  consensus.num_threads = num_threads_;
-  const std::vector<Proposal> proposals =
-      SearchConsensus(matched_source, matched_target, consensus);
-
-  std::vector<PoseCandidate> candidates(proposals.size());
+  std::vector<PoseCandidate> candidates;
+  if (!aligner_) return candidates;
+  const Eigen::Matrix3d as_given = Eigen::Matrix3d::Identity();
+  Propose(matched_source,
+          matched_target,
+          origin,
+          as_given,
+          as_given,
+          &candidates);
+  if (is_inclined_) {
+    Propose(level_from_source_ * matched_source,
+            level_from_target_ * matched_target,
+            origin + ", leveled by walls",
+            level_from_source_,
+            level_from_target_,
+            &candidates);
+  }
   const auto score = [&](PoseCandidate* candidate) {
     candidate->geometry = scorer_.At(candidate->target_from_source);
   };
@@ -193,11 +237,6 @@ std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
                        return a.Score() > b.Score();
                      });
   };
-  for (std::size_t k = 0; k < proposals.size(); ++k) {
-    candidates[k].target_from_source = proposals[k].target_from_source;
-    candidates[k].origin = origin;
-    candidates[k].log_likelihood_ratio = proposals[k].log_likelihood_ratio;
-  }
   for_all(score);
   sort();
   candidates.resize(std::min(candidates.size(),

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 // Proposes many poses and lets the geometry of both scans choose among them:
 //
-//   matches -> consensus search (robust/estimators/consensus_search.h)
+//   matches -> consensus search (robust/estimators/consensus_search.h), once
+//              with the given vertical and, if the walls of either scan are
+//              inclined against it, once with their own
+//              (robust/registration/vertical.h)
 //           -> geometric score of each proposal, the best are kept
 //           -> VG-ICP in SE(3) from each of these (solvers/local/vgicp.h)
 //           -> geometric score again: candidates, the best first
@@ -92,6 +95,15 @@ class PoseSearch {
  private:
   struct Aligner;
 
+  // The proposals in frames with z along the verticals, or along the given ones
+  // if no rotations are given.
+  void Propose(const PointsRef& matched_source,
+               const PointsRef& matched_target,
+               const std::string& origin,
+               const Eigen::Matrix3d& level_from_source,
+               const Eigen::Matrix3d& level_from_target,
+               std::vector<PoseCandidate>* candidates) const;
+
   const DescribedCloud& source_;
   const DescribedCloud& target_;
   double noise_bound_;
@@ -99,6 +111,11 @@ class PoseSearch {
   int num_threads_;
   GeometricScorer scorer_;
   std::unique_ptr<Aligner> aligner_;
+
+  // From the clouds to frames with z along the verticals of their walls.
+  Eigen::Matrix3d level_from_source_;
+  Eigen::Matrix3d level_from_target_;
+  bool is_inclined_ = false;
 };
 
 }  // namespace quatro
