@@ -331,6 +331,37 @@ void BindSummaries(py::module_* module) {
           "num_mutual_matches",
           [](const Registration& r) { return r.summary.num_mutual_matches; },
           "int: matches before the tuple test.")
+      .def_property_readonly(
+          "rung",
+          [](const Registration& r) { return r.summary.rung; },
+          "int: 0 if the estimator's own pose is the answer, else the rung of "
+          "the search that gave it.")
+      .def_property_readonly(
+          "scale_factor",
+          [](const Registration& r) { return r.summary.scale_factor; },
+          "float: the lengths of the front end and the noise bound are those "
+          "of the options times this.")
+      .def_property_readonly(
+          "candidates",
+          [](const Registration& r) {
+            py::list list;
+            for (const PoseCandidate& candidate : r.summary.candidates) {
+              py::dict entry;
+              entry["target_from_source"] =
+                  Copy(std::optional<Rigid3>(candidate.target_from_source));
+              entry["origin"] = candidate.origin;
+              entry["score"] = candidate.Score();
+              entry["overlap"] = candidate.geometry.overlap;
+              entry["contradicted_share"] =
+                  candidate.geometry.contradicted_share;
+              entry["log_likelihood_ratio"] = candidate.log_likelihood_ratio;
+              list.append(entry);
+            }
+            return list;
+          },
+          "list of dict: poses that the search found, the best of each rung "
+          "first: target_from_source, origin, score, overlap, "
+          "contradicted_share, log_likelihood_ratio. Empty without a search.")
       .def_readonly("num_source_dropped",
                     &Registration::num_source_dropped,
                     "int: points of the source that are not finite.")

@@ -118,12 +118,36 @@ std::string ExplainFrontEnd(const Json& report) {
                     "normals within " + parameter("normal_radius") +
                         " m, FPFH within " + parameter("fpfh_radius") + " m");
   return text +
-         Paragraph(
-             "matching",
-             Number(counts["mutual_matches"]) +
-                 " pairs are mutual nearest neighbors by FPFH; the tuple test "
-                 "keeps " +
-                 Number(counts["matches"]) + " of them");
+         Paragraph("matching",
+                   Number(counts["mutual_matches"]) +
+                       " pairs are mutual nearest neighbors by FPFH" +
+                       (NumberOr(At(report, {"rung"}), 0.0) > 0.0
+                            ? std::string()
+                            : "; the tuple test keeps " +
+                                  Number(counts["matches"]) + " of them"));
+}
+
+// Why this pose and no other.
+std::string ExplainSearch(const Json& report) {
+  const Json candidates = At(report, {"candidates"});
+  if (!candidates.is_array() || candidates.empty()) return {};
+  const double rung = NumberOr(At(report, {"rung"}), 0.0);
+  std::string text =
+      "the matches that passed the tuple test gave no pose that could be "
+      "registered, so " +
+      std::to_string(candidates.size()) +
+      " candidates were aligned with the scans; ";
+  text += rung == 0.0 ? std::string("none is more probable")
+                      : "the answer is from rung " + Number(rung);
+  const Json& best = candidates[0];
+  text += "; the best has a score of " + Number(best["score"], 2) + ", with " +
+          Percent(best["overlap"]) + " overlap and " +
+          Percent(best["contradicted_share"]) + " in free space (" +
+          best["origin"].get<std::string>() + ")";
+  if (candidates.size() > 1) {
+    text += ", the next one " + Number(candidates[1]["score"], 2);
+  }
+  return Paragraph("search", text);
 }
 
 std::string ExplainSolver(const Json& report) {
@@ -310,6 +334,7 @@ std::vector<std::string> Advice(const Json& report) {
 
 std::string Explain(const Json& report) {
   std::string text = ExplainFrontEnd(report);
+  text += ExplainSearch(report);
   text += ExplainSolver(report);
   text += ExplainEvidence(report);
   std::string verdict = report["status"].get<std::string>();

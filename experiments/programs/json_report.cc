@@ -283,6 +283,20 @@ Json DescribeRefinement(const std::optional<RefinementSummary>& refinement) {
            Rows(refinement->unrefined_target_from_source)}};
 }
 
+Json DescribeCandidates(const std::vector<PoseCandidate>& candidates) {
+  Json list = Json::array();
+  for (const PoseCandidate& candidate : candidates) {
+    list.push_back(
+        {{"origin", candidate.origin},
+         {"score", candidate.Score()},
+         {"overlap", candidate.geometry.overlap},
+         {"contradicted_share", candidate.geometry.contradicted_share},
+         {"log_likelihood_ratio", candidate.log_likelihood_ratio},
+         {"target_from_source", Rows(candidate.target_from_source)}});
+  }
+  return list;
+}
+
 Json DescribeOptions(const QuatroOptions& options) {
   return {{"noise_bound", options.noise_bound},
           {"tim_bound_factor", options.tim_bound_factor},

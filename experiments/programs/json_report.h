@@ -14,6 +14,7 @@
 #include "features/base/stopwatch.h"
 #include "robust/estimators/pose_summary.h"
 #include "robust/estimators/quatro.h"
+#include "robust/registration/pose_search.h"
 #include "robust/registration/refinement.h"
 #include "robust/registration/registration.h"
 #include "robust/verdict/surface_observability.h"
@@ -40,6 +41,10 @@ Json Describe(const std::optional<SurfaceObservability>& hold);
 // moved_m and moved_deg, cost, conditioning and the pose before refinement.
 // Null if there was no refinement.
 Json DescribeRefinement(const std::optional<RefinementSummary>& refinement);
+
+// The poses that a search found, the best of each rung first: origin, score,
+// overlap, contradicted_share, log_likelihood_ratio and target_from_source.
+Json DescribeCandidates(const std::vector<PoseCandidate>& candidates);
 
 // The parameters that were used.
 Json DescribeOptions(const QuatroOptions& options);

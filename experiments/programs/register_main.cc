@@ -275,6 +275,9 @@ int Main(int argc, char** argv) {
                    {"target_voxels", summary.num_target_voxels}});
   if (!quatro::StartsFromGuess(FLAGS_method)) {
     report["counts"]["mutual_matches"] = summary.num_mutual_matches;
+    report["rung"] = summary.rung;
+    report["scale_factor"] = summary.scale_factor;
+    report["candidates"] = quatro::DescribeCandidates(summary.candidates);
   }
   report["surface_observability"] =
       quatro::Describe(summary.surface_observability);

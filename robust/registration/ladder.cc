@@ -102,6 +102,22 @@ Points ColumnsOf(const std::vector<Match>& matches,
   return columns;
 }
 
+// Stages of all rungs are summed by name.
+void AddTime(const StageTime& time, std::vector<StageTime>* times) {
+  for (StageTime& known : *times) {
+    if (known.stage != time.stage) continue;
+    known.seconds += time.seconds;
+    return;
+  }
+  times->push_back(time);
+}
+
+double SumOf(const std::vector<StageTime>& times) {
+  double sum = 0.0;
+  for (const StageTime& time : times) sum += time.seconds;
+  return sum;
+}
+
 }  // namespace
 
 Points SourceColumns(const std::vector<Match>& matches, const Points& source) {
@@ -123,6 +139,7 @@ std::vector<Match> Climb(const std::vector<Match>& mutual_matches,
   const double voxel_size = options.front_end.voxel_size;
   std::optional<PoseSearch> search;
   for (int rung = 1; rung <= options.search.max_rung; ++rung) {
+    if (SumOf(summary->stage_times) > options.search.time_limit_seconds) break;
     Stopwatch stopwatch;
     if (!search) {
       search.emplace(*problem.source,
@@ -138,8 +155,9 @@ std::vector<Match> Climb(const std::vector<Match>& mutual_matches,
     const Points q = TargetColumns(matches, problem.target->points());
     std::vector<PoseCandidate> candidates =
         search->Find(p, q, "rung " + std::to_string(rung), problem.bounds);
-    summary->stage_times.push_back({"search", stopwatch.Lap()});
-    if (options.progress) options.progress(summary->stage_times.back());
+    const StageTime search_time{"search", stopwatch.Lap()};
+    AddTime(search_time, &summary->stage_times);
+    if (options.progress) options.progress(search_time);
     if (candidates.empty()) continue;
 
     RegistrationSummary attempt;
@@ -157,15 +175,12 @@ std::vector<Match> Climb(const std::vector<Match>& mutual_matches,
         {problem.source, problem.target, problem.bounds, options, solver},
         &attempt);
     attempt.rung = rung;
-    const auto add_to = [](auto* all, auto& more) {
-      all->insert(all->end(),
-                  std::make_move_iterator(more.begin()),
-                  std::make_move_iterator(more.end()));
-    };
     std::vector<PoseCandidate> all = std::move(summary->candidates);
-    add_to(&all, candidates);
+    all.insert(all.end(),
+               std::make_move_iterator(candidates.begin()),
+               std::make_move_iterator(candidates.end()));
     std::vector<StageTime> times = std::move(summary->stage_times);
-    add_to(&times, attempt.stage_times);
+    for (const StageTime& time : attempt.stage_times) AddTime(time, &times);
     if (attempt.verdict.IsRegistered() ||
         attempt.verdict.probability > summary->verdict.probability) {
       attempt.total_seconds = summary->total_seconds;

@@ -231,6 +231,7 @@ OptionList OptionsOf(const Method& method,
   if (has_clouds) {
     Append(FrontEndOptionList(options), &list);
     Append(RefinementOptionList(options), &list);
+    if (method.searches) Append(SearchOptionList(options), &list);
   }
   if (method.input == kClouds) {
     std::erase_if(list, [](const Option& o) {

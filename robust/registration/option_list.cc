@@ -262,6 +262,35 @@ OptionList RefinementOptionList(RegistrationOptions* options) {
            &o->max_rotation}};
 }
 
+OptionList SearchOptionList(RegistrationOptions* options) {
+  PoseSearchOptions* o = &options->search;
+  return {{"max_rung",
+           "in [0, 2]",
+           "how far other poses are searched if the first is not registered; "
+           "0: not at all",
+           &o->max_rung},
+          {"search_time_limit_seconds",
+           "[s], >= 0",
+           "no rung or scale is begun later",
+           &o->time_limit_seconds},
+          {"max_num_proposals",
+           ">= 1",
+           "proposals of a consensus search",
+           &o->max_num_proposals},
+          {"num_aligned",
+           ">= 1",
+           "proposals that VG-ICP starts from",
+           &o->num_aligned},
+          {"search_max_tilt",
+           "[rad], in [0, pi/4]",
+           "tilt between the scans that the consensus search allows for",
+           &o->max_tilt},
+          {"bound_factor",
+           "> 0",
+           "bound of the consensus search over noise_bound",
+           &o->bound_factor}};
+}
+
 OptionList InsOptionList(RegistrationOptions* options) {
   InsOptions* o = &options->ins;
   return {

@@ -72,6 +72,7 @@ OptionList CommonOptions(RegistrationOptions* options);
 // Options of what comes before and after the estimator.
 OptionList FrontEndOptionList(RegistrationOptions* options);
 OptionList RefinementOptionList(RegistrationOptions* options);
+OptionList SearchOptionList(RegistrationOptions* options);
 OptionList InsOptionList(RegistrationOptions* options);
 OptionList BoundsOptionList(RegistrationOptions* options);
 

@@ -81,8 +81,17 @@ double Width(const Points& points) {
 
 bool PoseSearchOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  if (max_rung < 0) {
-    problem << "search.max_rung = " << max_rung << ", must be >= 0";
+  if (max_rung < 0 || max_rung > 2) {
+    problem << "search.max_rung = " << max_rung << ", must be in [0, 2]";
+  } else if (scale_factors.empty() ||
+             !std::all_of(
+                 scale_factors.begin(), scale_factors.end(), [](double factor) {
+                   return factor > 0.0 && std::isfinite(factor);
+                 })) {
+    problem << "search.scale_factors must be > 0 and finite, at least one";
+  } else if (!(time_limit_seconds >= 0.0)) {
+    problem << "search.time_limit_seconds = " << time_limit_seconds
+            << ", must be >= 0";
   } else if (max_num_proposals < 1) {
     problem << "search.max_num_proposals = " << max_num_proposals
             << ", must be >= 1";
@@ -163,8 +172,8 @@ PoseSearch::PoseSearch(const DescribedCloud& source,
   const Eigen::Vector3d target_up = EstimateVertical(target, z).value_or(z);
   level_from_source_ = RotationBetween(source_up, z);
   level_from_target_ = RotationBetween(target_up, z);
-  is_inclined_ = std::min(source_up.z(), target_up.z()) <
-                 std::cos(kMinInclination);
+  is_inclined_ =
+      std::min(source_up.z(), target_up.z()) < std::cos(kMinInclination);
 }
 
 PoseSearch::~PoseSearch() = default;
@@ -203,12 +212,8 @@ std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
   std::vector<PoseCandidate> candidates;
   if (!aligner_) return candidates;
   const Eigen::Matrix3d as_given = Eigen::Matrix3d::Identity();
-  Propose(matched_source,
-          matched_target,
-          origin,
-          as_given,
-          as_given,
-          &candidates);
+  Propose(
+      matched_source, matched_target, origin, as_given, as_given, &candidates);
   if (is_inclined_) {
     Propose(level_from_source_ * matched_source,
             level_from_target_ * matched_target,

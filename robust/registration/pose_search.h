@@ -22,6 +22,7 @@
 #ifndef QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
 #define QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,8 +40,17 @@ namespace quatro {
 // How far the search goes.
 struct PoseSearchOptions {
   // Rungs beyond the estimator's own answer that are tried until one is
-  // registered; 0: none.
+  // registered (robust/registration/ladder.h), in [0, 2].
   int max_rung = 2;
+
+  // All lengths of the front end and the noise bound are multiplied by these in
+  // turn, with all rungs for each, until a pose is registered. Register() only:
+  // RegisterMatched() has the matches of one scale.
+  std::vector<double> scale_factors = {1.0};
+
+  // No rung or scale is begun later than this [s]. The answer then depends on
+  // the speed of the machine.
+  double time_limit_seconds = std::numeric_limits<double>::infinity();
 
   int max_num_proposals = 128;
   int num_aligned = 16;  // Proposals from which VG-ICP starts.

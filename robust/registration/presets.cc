@@ -67,10 +67,21 @@ Eigen::Index CountVoxels(const PointCloud& cloud, double voxel_size) {
 }
 
 // The size at which the cloud keeps kWantedVoxels, by bisection in the
-// logarithm. A cloud with fewer points than that gives the smallest size.
+// logarithm. A cloud with fewer points than that gives a size far below their
+// spacing.
 double SizeForWantedVoxels(const PointCloud& cloud) {
-  double low = std::log(0.01);
+  constexpr double kUsualMin = 0.01;  // [m]
+  constexpr double kMinShare = 1e-4;  // Of the extent of a smaller cloud.
+  double low = std::log(kUsualMin);
   double high = std::log(10.0);
+  const double extent =
+      (cloud.points.rowwise().maxCoeff() - cloud.points.rowwise().minCoeff())
+          .maxCoeff();
+  if (kMinShare * extent < kUsualMin && extent > 0.0 &&
+      CountVoxels(cloud, kUsualMin) <= kWantedVoxels) {
+    low = std::log(kMinShare * extent);
+    high = std::log(kUsualMin);
+  }
   for (int i = 0; i < 8; ++i) {
     const double middle = 0.5 * (low + high);
     (CountVoxels(cloud, std::exp(middle)) > kWantedVoxels ? low : high) =
@@ -143,7 +154,10 @@ RegistrationOptions MakeAutoOptions(const PointCloud& source,
   const double chosen =
       std::max(SizeForSurfaces(source, dense), SizeForSurfaces(target, dense));
   const double unit = std::pow(10.0, std::floor(std::log10(chosen)) - 1.0);
-  return InProportionTo(std::max(0.01, std::round(chosen / unit) * unit));
+  RegistrationOptions options =
+      InProportionTo(std::round(chosen / unit) * unit);
+  options.search.scale_factors = {1.0, 2.0, 3.5};
+  return options;
 }
 
 }  // namespace quatro

@@ -44,6 +44,24 @@ bool Prepare(const RegistrationOptions& options,
   return true;
 }
 
+// All lengths of the front end and the noise bound times a factor.
+RegistrationOptions ScaledBy(double factor,
+                             const RegistrationOptions& options) {
+  RegistrationOptions scaled = options;
+  scaled.front_end.voxel_size *= factor;
+  scaled.front_end.normal_radius *= factor;
+  scaled.front_end.fpfh_radius *= factor;
+  scaled.noise_bound *= factor;
+  return scaled;
+}
+
+bool IsBetter(const RegistrationSummary& a, const RegistrationSummary& b) {
+  if (a.verdict.IsRegistered() != b.verdict.IsRegistered()) {
+    return a.verdict.IsRegistered();
+  }
+  return a.verdict.probability > b.verdict.probability;
+}
+
 // Through the door, and back. `clouds` is null without clouds.
 void RegisterBehindDoor(const Matches& matches,
                         const MatchedClouds* clouds,
@@ -103,7 +121,26 @@ RegistrationSummary Register(const PointCloud& source,
     method->adjust(&local);
     return RegisterLocally(source, target, options.bounds.guess, local);
   }
-  return RegisterMatched(MatchClouds(source, target, options), options);
+  const bool searches = method && method->searches && !options.solver &&
+                        options.search.max_rung > 0;
+  std::optional<RegistrationSummary> best;
+  double seconds = 0.0;
+  for (const double factor : options.search.scale_factors) {
+    const RegistrationOptions scaled = ScaledBy(factor, options);
+    RegistrationSummary summary =
+        RegisterMatched(MatchClouds(source, target, scaled), scaled);
+    summary.scale_factor = factor;
+    seconds += summary.total_seconds;
+    if (!best || IsBetter(summary, *best)) best = std::move(summary);
+    if (!searches || !best->error.empty() || best->verdict.IsRegistered() ||
+        seconds > options.search.time_limit_seconds) {
+      break;
+    }
+  }
+  if (!best)
+    return RegisterMatched(MatchClouds(source, target, options), options);
+  best->total_seconds = seconds;
+  return *std::move(best);
 }
 
 RegistrationSummary RegisterMatches(const Matches& matches,

@@ -52,6 +52,11 @@ struct RegistrationSummary {
   // estimator by itself. The candidates of all rungs that were tried, the best
   // of each first.
   int rung = 0;
+
+  // The noise bound and the lengths of the front end are those of the options
+  // times this (PoseSearchOptions::scale_factors).
+  double scale_factor = 1.0;
+
   std::vector<PoseCandidate> candidates;
 
   std::vector<StageTime> stage_times;

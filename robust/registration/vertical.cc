@@ -35,8 +35,7 @@ std::optional<Eigen::Vector3d> EstimateVertical(const DescribedCloud& cloud,
       const Eigen::Vector3d normal = cloud.normals.col(i);
       const double cosine = normal.dot(up);
       if (normal.isZero(0.0) || std::abs(cosine) >= kMaxCosine) continue;
-      const double weight =
-          1.0 / (1.0 + cosine * cosine / (kScale * kScale));
+      const double weight = 1.0 / (1.0 + cosine * cosine / (kScale * kScale));
       scatter += weight * normal * normal.transpose();
       sum += weight;
       ++num;

@@ -209,7 +209,7 @@ def test_every_option_refuses_a_value_of_another_type(method):
 def test_names_that_are_not_known_are_refused():
     source, target = problems.matches(9, TRUTH)
     with pytest.raises(ValueError, match='^method = "orb", must be one of '
-                                         'auto, quatro, quatro_exact, .*, vgicp$'):
+                                         'auto, quatro, quatro_single, .*, vgicp$'):
         quatro.solve(source, target, method='orb')
     with pytest.raises(ValueError, match='^preset = "auto", must be one of kitti, .*indoor$'):
         quatro.solve(source, target, preset='auto')

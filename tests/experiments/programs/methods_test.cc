@@ -97,6 +97,7 @@ TEST(Methods, AllNamesResolveAndSolve) {
   EXPECT_THAT(MatchMethodNames(),
               IsSupersetOf({"auto",
                             "quatro",
+                            "quatro_single",
                             "quatro_exact",
                             "arc_consensus",
                             "teaser",
@@ -119,6 +120,8 @@ TEST(Methods, AllNamesResolveAndSolve) {
 TEST(Methods, AreTheSolversTheyAreNamedFor) {
   const MatchedProblem problem = MakeOutlierProblem(200, 0.7, 0.1, 2);
   ExpectSameBits(Solve("quatro", problem),
+                 SolveQuatro(problem.source, problem.target, {}));
+  ExpectSameBits(Solve("quatro_single", problem),
                  SolveQuatro(problem.source, problem.target, {}));
   QuatroOptions exact;
   exact.yaw_solver = YawSolver::kExact;

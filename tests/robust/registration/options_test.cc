@@ -281,6 +281,10 @@ std::string ToText(const RegistrationSummary& summary) {
   if (solution.covariance && solution.covariance->covariance) {
     out << *solution.covariance->covariance << "\n";
   }
+  out << "rung " << summary.rung << "\n";
+  for (const PoseCandidate& candidate : summary.candidates) {
+    out << candidate.origin << " " << candidate.Score() << "\n";
+  }
   if (!summary.refinement) return out.str();
   out << RefinementName(summary.refinement->method) << " "
       << summary.refinement->message << "\n";
@@ -341,6 +345,11 @@ const std::multimap<std::string, std::string>& Needed() {
       {"edge_test", "local_optimization=off"},
       {"edge_test", "noise_bound=3"},
       {"edge_test", "max_iterations=3"},
+      {"max_rung", "min_probability=1"},
+      {"max_num_proposals", "min_probability=1"},
+      {"num_aligned", "min_probability=1"},
+      {"search_max_tilt", "min_probability=1"},
+      {"bound_factor", "min_probability=1"},
       {"refine_max_translation", "refine=gicp"},
       {"refine_max_rotation", "refine=gicp"},
       {"ins_mode", "source_rpy=0.01,0.02,0"},
@@ -364,6 +373,7 @@ const std::vector<Exception>& Exceptions() {
   static const std::vector<Exception> exceptions = {
       {"num_threads", {}, "never changes the answer, see below"},
       {"clique_time_limit_seconds", {}, "a clique of so few takes no time"},
+      {"search_time_limit_seconds", {}, "see ladder_test.cc"},
       {"max_tilt", {"ransac"}, "rejects samples, see minimal_pose_test.cc"},
       {"replace_missed_optimum", {"quatro_c2f"}, "as quatro's"},
       {"certificate_tolerance", {"quatro_c2f"}, "as quatro's"}};
@@ -409,7 +419,7 @@ void SetNeeded(const Method& method,
 
 // What an error calls the option: the name of its field.
 std::string FieldName(std::string_view name) {
-  for (const std::string_view prefix : {"refine_", "gnc_", "clique_"}) {
+  for (const std::string_view prefix : {"refine_", "gnc_", "clique_", "search_"}) {
     if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
   }
   if (name == "tuple_scale") return "tuple_test.scale";

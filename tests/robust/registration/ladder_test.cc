@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: 2026 The quatro authors
+// SPDX-License-Identifier: MIT
+// The ladder on simulated scans 20 to 30 m apart, which the estimator alone
+// does not register.
+
+#include "robust/registration/ladder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "experiments/simulator/pair_sets.h"
+#include "robust/registration/presets.h"
+#include "robust/registration/registration.h"
+
+namespace quatro {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const SetPair& FarPair() {
+  static const SetPair pair = [] {
+    PairSetOptions options;
+    options.world = WorldKind::kCrossing;
+    options.min_distance = 20.0;
+    std::string error;
+    // The first pair that quatro alone does not register.
+    for (int index = 0; index < 10; ++index) {
+      auto drawn = SimulateSetPair(options, index, &error);
+      EXPECT_TRUE(drawn) << error;
+      RegistrationOptions single;
+      single.method = "quatro_single";
+      if (!Register(drawn->source, drawn->target, single)
+               .verdict.IsRegistered()) {
+        return *drawn;
+      }
+    }
+    ADD_FAILURE() << "too easy";
+    return SetPair();
+  }();
+  return pair;
+}
+
+RegistrationSummary RegisterFar(const RegistrationOptions& options) {
+  return Register(FarPair().source, FarPair().target, options);
+}
+
+void ExpectTrue(const std::optional<Rigid3>& pose) {
+  ASSERT_TRUE(pose);
+  const Rigid3& truth = *FarPair().true_target_from_source;
+  EXPECT_LT((pose->translation - truth.translation).norm(), 1.0);
+  EXPECT_LT(AngleBetween(pose->rotation, truth.rotation), 0.05);
+}
+
+TEST(Ladder, RegistersWhatTheEstimatorAloneDoesNot) {
+  const RegistrationSummary summary = RegisterFar({});
+  EXPECT_TRUE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+  EXPECT_GE(summary.rung, 1);
+  ExpectTrue(summary.target_from_source());
+  // The best candidate of the rung is the answer's.
+  ASSERT_FALSE(summary.candidates.empty());
+  for (const PoseCandidate& candidate : summary.candidates) {
+    EXPECT_THAT(candidate.origin, HasSubstr("rung "));
+  }
+  // The matches are those of the rung.
+  EXPECT_EQ(summary.matched_source.cols(), summary.matched_target.cols());
+  EXPECT_EQ(summary.solution.num_matches, summary.matched_source.cols());
+  for (const Eigen::Index i : summary.solution.translation_inliers) {
+    EXPECT_LT((*summary.target_from_source() *
+                   Eigen::Vector3d(summary.matched_source.col(i)) -
+               summary.matched_target.col(i))
+                  .norm(),
+              2.0);
+  }
+  // Each stage is named once.
+  std::set<std::string> stages;
+  for (const StageTime& time : summary.stage_times) {
+    EXPECT_TRUE(stages.insert(time.stage).second) << time.stage;
+  }
+  EXPECT_TRUE(stages.contains("search"));
+}
+
+TEST(Ladder, ThreadsChangeNoBit) {
+  const RegistrationSummary one = RegisterFar({});
+  RegistrationOptions options;
+  options.num_threads = 3;
+  const RegistrationSummary three = RegisterFar(options);
+  ASSERT_TRUE(one.target_from_source() && three.target_from_source());
+  EXPECT_EQ(three.target_from_source()->ToMatrix(),
+            one.target_from_source()->ToMatrix());
+  EXPECT_EQ(three.verdict.reason, one.verdict.reason);
+  ASSERT_EQ(three.candidates.size(), one.candidates.size());
+  for (std::size_t k = 0; k < one.candidates.size(); ++k) {
+    EXPECT_EQ(three.candidates[k].Score(), one.candidates[k].Score());
+  }
+}
+
+// In level frames the search works on leveled copies of the clouds.
+TEST(Ladder, WorksBehindTheDoor) {
+  RegistrationOptions options;
+  options.ins.mode = InsMode::kLeveled;
+  options.ins.source_attitude = FarPair().source_ins;
+  options.ins.target_attitude = FarPair().target_ins;
+  const RegistrationSummary summary = RegisterFar(options);
+  EXPECT_TRUE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+  ExpectTrue(summary.target_from_source());
+  ASSERT_GE(summary.rung, 1);
+  // The candidates and the matches are in the frames of the clouds.
+  ExpectTrue(summary.candidates.front().target_from_source);
+  double nearest = 1e9;
+  for (Eigen::Index i = 0; i < summary.matched_source.cols(); ++i) {
+    nearest = std::min(nearest,
+                       (summary.candidates.front().target_from_source *
+                            Eigen::Vector3d(summary.matched_source.col(i)) -
+                        summary.matched_target.col(i))
+                           .norm());
+  }
+  EXPECT_LT(nearest, 0.5);
+}
+
+TEST(Ladder, IsNotClimbedWithoutNeed) {
+  // Nothing is asked for.
+  RegistrationOptions options;
+  options.verdict.min_probability = 0.0;
+  RegistrationSummary summary = RegisterFar(options);
+  if (summary.verdict.IsRegistered()) {
+    EXPECT_EQ(summary.rung, 0);
+    EXPECT_THAT(summary.candidates, IsEmpty());
+  }
+  // The estimator's answer is all that is wanted.
+  options = {};
+  options.search.max_rung = 0;
+  summary = RegisterFar(options);
+  EXPECT_FALSE(summary.verdict.IsRegistered());
+  EXPECT_THAT(summary.candidates, IsEmpty());
+  // Other methods have no search.
+  options = {};
+  options.method = "teaser";
+  EXPECT_THAT(RegisterFar(options).candidates, IsEmpty());
+  for (const char* preset : {"paper", "reference"}) {
+    EXPECT_EQ(MakePreset(preset)->search.max_rung, 0) << preset;
+  }
+}
+
+TEST(Ladder, StopsAtTheTimeLimit) {
+  RegistrationOptions options;
+  options.search.time_limit_seconds = 0.0;
+  const RegistrationSummary summary = RegisterFar(options);
+  EXPECT_FALSE(summary.verdict.IsRegistered());
+  EXPECT_THAT(summary.candidates, IsEmpty());
+  EXPECT_FALSE(summary.verdict.reason.empty());
+}
+
+TEST(Ladder, TriesScalesUntilOneIsRegistered) {
+  RegistrationOptions options;
+  options.method = "quatro";
+  // Half the usual lengths, times two.
+  for (double* length : {&options.front_end.voxel_size,
+                         &options.front_end.normal_radius,
+                         &options.front_end.fpfh_radius,
+                         &options.noise_bound}) {
+    *length /= 2.0;
+  }
+  options.search.scale_factors = {2.0, 1.0};
+  const RegistrationSummary summary = RegisterFar(options);
+  EXPECT_TRUE(summary.verdict.IsRegistered());
+  EXPECT_EQ(summary.scale_factor, 2.0);
+  ExpectTrue(summary.target_from_source());
+  const RegistrationSummary usual = RegisterFar({});
+  EXPECT_EQ(summary.target_from_source()->ToMatrix(),
+            usual.target_from_source()->ToMatrix());
+  EXPECT_EQ(usual.scale_factor, 1.0);
+  // The best of several that are not registered is the most probable.
+  options.search.scale_factors = {2.0, 4.0};
+  options.verdict.min_probability = 1.0;
+  const RegistrationSummary best = RegisterFar(options);
+  options.search.scale_factors = {4.0};
+  const RegistrationSummary other = RegisterFar(options);
+  EXPECT_GE(best.verdict.probability, other.verdict.probability);
+}
+
+TEST(Ladder, CandidatesAreWithinTheBounds) {
+  RegistrationOptions options;
+  options.bounds.guess = *FarPair().true_target_from_source;
+  options.bounds.max_translation = 5.0;
+  const RegistrationSummary near = RegisterFar(options);
+  ExpectTrue(near.target_from_source());
+  for (const PoseCandidate& candidate : near.candidates) {
+    EXPECT_TRUE(options.bounds.Contain(candidate.target_from_source,
+                                       options.noise_bound));
+  }
+  // Where the true pose is excluded, nothing is registered.
+  options.bounds.guess.translation.x() += 40.0;
+  const RegistrationSummary far = RegisterFar(options);
+  EXPECT_FALSE(far.verdict.IsRegistered());
+  for (const PoseCandidate& candidate : far.candidates) {
+    EXPECT_TRUE(options.bounds.Contain(candidate.target_from_source,
+                                       options.noise_bound));
+  }
+}
+
+TEST(Ladder, ScansOfDifferentPlacesAreNotRegistered) {
+  PairSetOptions set;
+  set.no_overlap = true;
+  for (int index = 0; index < 3; ++index) {
+    std::string error;
+    const auto pair = SimulateSetPair(set, index, &error);
+    ASSERT_TRUE(pair) << error;
+    const RegistrationSummary summary =
+        Register(pair->source, pair->target, {});
+    EXPECT_FALSE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+    EXPECT_FALSE(summary.candidates.empty());
+  }
+}
+
+TEST(PoseSearchOptions, ErrorsNameTheField) {
+  const auto error_of = [](const auto& change) {
+    RegistrationOptions options;
+    change(&options.search);
+    std::string error;
+    EXPECT_FALSE(options.IsValid(&error));
+    return error;
+  };
+  EXPECT_THAT(error_of([](auto* o) { o->max_rung = 3; }),
+              HasSubstr("search.max_rung = 3, must be in [0, 2]"));
+  EXPECT_THAT(error_of([](auto* o) { o->scale_factors = {}; }),
+              HasSubstr("search.scale_factors"));
+  EXPECT_THAT(error_of([](auto* o) {
+                o->scale_factors = {1.0, 0.0};
+              }),
+              HasSubstr("search.scale_factors"));
+  EXPECT_THAT(error_of([](auto* o) { o->time_limit_seconds = -1.0; }),
+              HasSubstr("search.time_limit_seconds = -1"));
+  EXPECT_THAT(error_of([](auto* o) { o->max_num_proposals = 0; }),
+              HasSubstr("search.max_num_proposals = 0"));
+  EXPECT_THAT(error_of([](auto* o) { o->num_aligned = 0; }),
+              HasSubstr("search.num_aligned = 0"));
+  EXPECT_THAT(error_of([](auto* o) { o->max_tilt = -0.1; }),
+              HasSubstr("search.max_tilt = -0.1"));
+  EXPECT_THAT(error_of([](auto* o) { o->bound_factor = 0.0; }),
+              HasSubstr("search.bound_factor = 0"));
+}
+
+TEST(Columns, AreThoseOfTheMatches) {
+  Points source(3, 3), target(3, 2);
+  source << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  target << 1, 2, 3, 4, 5, 6;
+  const std::vector<Match> matches = {{2, 0}, {0, 1}};
+  EXPECT_EQ(SourceColumns(matches, source).col(0), source.col(2));
+  EXPECT_EQ(SourceColumns(matches, source).col(1), source.col(0));
+  EXPECT_EQ(TargetColumns(matches, target).col(1), target.col(1));
+}
+
+}  // namespace
+}  // namespace quatro
