@@ -3,12 +3,14 @@
 // A quick score by which candidate poses of two scans are compared,
 //
 //   score(T) = min over both ways of  overlapping / (in range + c)
-//              * (1 - contradicted share)^2,                               (1)
+//              * (1 - contradicted share)^5,                               (1)
 //
 // from samples of the structure (robust/verdict/structure.h) of each scan. A
 // point is in range and overlapping by robust/verdict/structure_grid.h; it is
 // contradicted if the other scan saw free space there
-// (robust/verdict/free_space.h). The constant c lowers the score of poses that
+// (robust/verdict/free_space.h). Along a facade with a period, a pose that is off
+// by the period overlaps nearly as well as the correct one, and a contradicted
+// share of a tenth is all that tells them apart. The constant c lowers the score of poses that
 // bring few points into range, where a large share may be chance.
 //
 // The score orders candidates. Whether the best one is correct is decided by
@@ -19,6 +21,7 @@
 #define QUATRO_ROBUST_VERDICT_GEOMETRIC_SCORE_H_
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 
 #include "features/base/rigid3.h"
@@ -34,7 +37,7 @@ struct GeometricScore {
   double contradicted_share = 0.0;  // Of the points whose sight is known.
 
   double value() const {
-    return overlap * (1.0 - contradicted_share) * (1.0 - contradicted_share);
+    return overlap * std::pow(1.0 - contradicted_share, 5.0);
   }
 };
 

@@ -37,7 +37,7 @@ TEST(GeometricScore, IsTheProductOfItsParts) {
   GeometricScore score;
   score.overlap = 0.5;
   score.contradicted_share = 0.2;
-  EXPECT_NEAR(score.value(), 0.5 * 0.8 * 0.8, 1e-15);
+  EXPECT_NEAR(score.value(), 0.5 * std::pow(0.8, 5.0), 1e-15);
 }
 
 TEST(GeometricScore, IsHighestAtTheTruePose) {
