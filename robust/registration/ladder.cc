@@ -47,6 +47,7 @@ class CandidateSolver {
     };
     to_input(&summary.consistent);
     to_input(&summary.translation_inliers);
+    summary.num_matches = source.cols();
     if (!IsAsGood(summary)) {
       // The candidate stands for itself.
       summary.termination = PoseTermination::kSolved;

@@ -245,11 +245,21 @@ TEST_F(TiltedRegistrationTest, ScansMatchedWithoutTheInsGiveTheSame) {
 }
 
 TEST_F(TiltedRegistrationTest, WithoutAnInsAYawAloneIsOff) {
+  options_.method = "quatro_single";
   const RegistrationSummary summary = RegisterTilted(InsMode::kNone);
-  if (!summary.target_from_source()) return;
+  ASSERT_TRUE(summary.target_from_source());
   EXPECT_GT(AngleBetween(summary.target_from_source()->rotation,
                          true_tilted_.rotation),
             0.2);
+}
+
+TEST_F(TiltedRegistrationTest, WithoutAnInsTheSearchFindsTheTilt) {
+  const RegistrationSummary summary = RegisterTilted(InsMode::kNone);
+  EXPECT_TRUE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+  EXPECT_GE(summary.rung, 1);
+  EXPECT_LT(AngleBetween(summary.target_from_source()->rotation,
+                         true_tilted_.rotation),
+            0.02);
 }
 
 TEST_F(TiltedRegistrationTest, AnotherSolverIsGivenTheLevelMatches) {
