@@ -81,6 +81,7 @@ struct PoseCandidate {
 // in [m].
 class PoseSearch {
  public:
+  // Builds the grids and the voxels of VG-ICP.
   PoseSearch(const DescribedCloud& source,
              const DescribedCloud& target,
              double max_distance,

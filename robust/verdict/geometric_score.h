@@ -8,10 +8,11 @@
 // from samples of the structure (robust/verdict/structure.h) of each scan. A
 // point is in range and overlapping by robust/verdict/structure_grid.h; it is
 // contradicted if the other scan saw free space there
-// (robust/verdict/free_space.h). Along a facade with a period, a pose that is off
-// by the period overlaps nearly as well as the correct one, and a contradicted
-// share of a tenth is all that tells them apart. The constant c lowers the score of poses that
-// bring few points into range, where a large share may be chance.
+// (robust/verdict/free_space.h). Along a facade with a period, a pose that is
+// off by the period overlaps nearly as well as the correct one, and a
+// contradicted share of a tenth is all that tells them apart. The constant c
+// lowers the score of poses that bring few points into range, where a large
+// share may be chance.
 //
 // The score orders candidates. Whether the best one is correct is decided by
 // the verdict, which measures the same on all points (robust/verdict/
@@ -36,6 +37,7 @@ struct GeometricScore {
   double overlap = 0.0;             // The first factor.
   double contradicted_share = 0.0;  // Of the points whose sight is known.
 
+  // (1)
   double value() const {
     return overlap * std::pow(1.0 - contradicted_share, 5.0);
   }

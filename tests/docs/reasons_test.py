@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ['robust/verdict/verdict.cc', 'robust/estimators/quatro.cc', 'robust/estimators/teaser.cc', 'robust/estimators/fgr.cc',
            'robust/estimators/ransac.cc', 'robust/estimators/arc_consensus.cc', 'robust/estimators/polish.cc', 'robust/registration/refinement.cc',
            'robust/registration/ins.cc', 'robust/estimators/bound_solver.cc', 'robust/registration/local_registration.cc', 'robust/gnc/gnc.cc', 'robust/registration/front_end.cc',
-           'robust/registration/registration.cc', 'solvers/closed_form/valid_matches.cc', 'solvers/ceres/pose_covariance.cc',
+           'robust/registration/registration.cc', 'robust/registration/level_registration.cc', 'robust/registration/ladder.cc', 'solvers/closed_form/valid_matches.cc', 'solvers/ceres/pose_covariance.cc',
            'solvers/ceres/observability.cc', 'solvers/local/local_alignment.cc',
            'solvers/local/vgicp.cc', 'features/voxel_grid.cc', 'experiments/programs/explain.cc']
 LITERAL = re.compile(r'"((?:\\.|[^"\\])*)"')

@@ -419,7 +419,8 @@ void SetNeeded(const Method& method,
 
 // What an error calls the option: the name of its field.
 std::string FieldName(std::string_view name) {
-  for (const std::string_view prefix : {"refine_", "gnc_", "clique_", "search_"}) {
+  for (const std::string_view prefix :
+       {"refine_", "gnc_", "clique_", "search_"}) {
     if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
   }
   if (name == "tuple_scale") return "tuple_test.scale";
