@@ -5,9 +5,9 @@
 //   matches -> those that can be inliers within the bounds -> solver
 //           -> the pose, if the bounds contain it
 //
-// The filter is necessary, not sufficient: a consensus of matches that all pass
-// it may still be a pose outside of the bounds. It is then no answer, and no
-// other one is looked for.
+// The filter is necessary, not sufficient: the pose of matches that pass it may
+// still be outside of the bounds. It is then rejected, and no other pose is
+// searched.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_BOUND_SOLVER_H_
 #define QUATRO_ROBUST_ESTIMATORS_BOUND_SOLVER_H_
@@ -25,9 +25,9 @@ void RefuseOutside(const PoseBounds& bounds,
                    double noise_bound,
                    PoseSummary* summary);
 
-// `solver` on the matches that satisfy (2); a pose that violates (1) is no
-// answer. Columns in the summary are those of all matches. The solver itself
-// if the bounds are not active.
+// Returns a solver that runs `solver` on the matches that satisfy (2) and
+// rejects poses that violate (1). Columns in the summary refer to all matches.
+// Returns `solver` itself if the bounds are not active.
 PoseSolver BoundSolver(PoseSolver solver,
                        const PoseBounds& bounds,
                        double noise_bound);

@@ -26,12 +26,12 @@
 
 namespace quatro {
 
-// Another descriptor of the same points, a column each; zero for no descriptor.
-// `normals` are unit or, where there is none, zero, `radius` [m].
+// Computes another descriptor: one column per point, zero if a point has none.
+// `normals` are unit vectors, or zero where unknown; `radius` is in [m].
 using CloudDescriber = std::function<Fpfh(
     const Points& points, const Points& normals, double radius)>;
 
-// Sizes and radii, all in metres.
+// Sizes and radii.
 struct FrontEndOptions {
   double voxel_size = 0.3;     // [m]
   double normal_radius = 0.9;  // [m]
@@ -46,8 +46,8 @@ struct FrontEndOptions {
 
 // Two clouds described, and their matches.
 struct MatchedClouds {
-  // Why nothing was tried: an option out of range, a cloud without points or
-  // too wide. Empty otherwise.
+  // Why there are no matches: an option is out of range, or a cloud has no
+  // points or is too wide. Empty otherwise.
   std::string error;
 
   DescribedCloud source;
@@ -71,8 +71,8 @@ std::vector<Match> MatchAgain(const DescribedCloud& source,
                               const FrontEndOptions& options,
                               int num_threads);
 
-// `source_up` and `target_up` are unit vectors: which way is up in each cloud.
-// Options must be valid.
+// `source_up` and `target_up` are the upward directions in the clouds, unit
+// vectors. Options must be valid.
 MatchedClouds MatchClouds(
     const PointCloud& source,
     const PointCloud& target,

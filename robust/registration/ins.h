@@ -1,24 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Quatro on slopes: roll and pitch from an INS, so that a turn about the
-// vertical is all that is left to find,
+// Quatro on slopes: an INS provides roll and pitch, and only a rotation about
+// the vertical remains to be estimated,
 //
 //   target_from_source = level_from_target^-1 R_z(yaw) level_from_source.  (1)
 //
 // Matches and clouds are rotated into the level frames, once
-// (robust/registration/level.h); the estimator finds yaw and translation there,
-// and (1) takes its answer back. There are three modes:
+// (robust/registration/level.h). The estimator finds yaw and translation there,
+// and (1) transforms its pose back. There are three modes:
 //
 //   relative  level_from_source = R_y R_x of the INS' rotation from source to
-//             target = R_z R_y R_x, level_from_target = I. The paper's; it
-//             needs the difference of the INS' yaws to be right, too.
-//   leveled   each cloud by its own roll and pitch. The yaws are not used.
-//   fused     leveled, then all of the pose on the inliers with the INS as a
-//             prior (solvers/ceres/ins_refinement.h), which takes out of the
-//             answer what the INS is off by, as far as the matches know better.
+//             target = R_z R_y R_x, level_from_target = I. This is the
+//             paper's mode. The difference of the INS' yaws must be correct,
+//             too.
+//   leveled   Each cloud is leveled by its own roll and pitch. The yaws are not
+//             used.
+//   fused     As leveled; then the whole pose is refined on the inliers with
+//             the INS as a prior (solvers/ceres/ins_refinement.h). This
+//             corrects errors of the INS where the matches are more certain.
 //
-// An INS that knows the rotation from source to target alone: give AttitudeOf()
-// that as the source's attitude and zeros as the target's. Relative and leveled
+// If an INS knows only the rotation from source to target, use AttitudeOf() of
+// it as the source's attitude and zeros as the target's. Relative and leveled
 // are then the same.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_INS_H_
@@ -33,41 +35,40 @@
 
 namespace quatro {
 
-// What is made of the INS.
+// How the INS is used.
 enum class InsMode { kNone, kRelative, kLeveled, kFused };
 
-// The INS' attitudes, and how far they are trusted.
+// The attitudes from the INS, and their uncertainty.
 struct InsOptions {
-  InsMode mode = InsMode::kNone;  // kNone: of all this, `up` alone counts.
+  InsMode mode = InsMode::kNone;  // kNone: only `up` has an effect.
 
-  // World from body, both in one world; its z is up.
+  // World from body; both in the same world, whose z axis is up.
   Attitude source_attitude;
   Attitude target_attitude;
 
-  // For InsMode::kFused. Of each roll and pitch, the source's and the target's
-  // independent of each other [rad]: the tilt between the clouds is off by
-  // sqrt(2) times as much. Where one knows the deviation of that tilt instead,
-  // this is 1 / sqrt(2) of it.
+  // For InsMode::kFused: the standard deviation of each roll and each pitch
+  // [rad]. Errors of source and target are independent, so the standard
+  // deviation of the tilt between the clouds is sqrt(2) times as large.
   double attitude_std = 0.0087;
 
-  // For InsMode::kFused. Of a right match on each axis [m]; 0: a third of the
-  // noise bound. Only its ratio to attitude_std counts. Errors of real matches
-  // are not independent, so that many of them may say less than (1) of
-  // solvers/ceres/ins_refinement.h makes of it.
+  // For InsMode::kFused: the standard deviation of an inlier on each axis [m];
+  // 0 means a third of the noise bound. Only the ratio to attitude_std matters.
+  // Errors of real matches are not independent, so many matches may contain
+  // less information than (1) of solvers/ceres/ins_refinement.h assumes.
   double match_std = 0.0;
 
-  // What is up in a cloud whose roll and pitch are zero, a unit vector. The
-  // body's axes are the cloud's turned by RotationBetween(up, z).
+  // The upward direction in a cloud whose roll and pitch are zero, a unit
+  // vector. RotationBetween(up, z) rotates the cloud's axes into the body's.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 
-  // True if the INS and the axis have no say: mode is kNone and up is z.
+  // True if the INS and the axis have no effect: mode is kNone and up is z.
   bool IsPlain() const;
 };
 
-// Rotations that turn what is up into z; for InsMode::kRelative, up in the
+// Rotations into frames whose z axis is up. For InsMode::kRelative, up in the
 // target is `up`.
 struct LevelFrames {
   Eigen::Matrix3d level_from_source;
@@ -80,14 +81,14 @@ struct LevelFrames {
   }
 };
 
-// Those of the mode.
+// The level frames of a mode.
 LevelFrames MakeLevelFrames(const InsOptions& ins);
 
 // Any solver on matches in level frames, with z up. Sets the standard deviation
 // of the assumed vertical, and for InsMode::kFused refines the pose with the
-// INS as a prior; the pose before that is then the unpolished one. An estimator
-// of the full rotation gains by kFused alone. `noise_bound` is the solver's
-// [m].
+// INS as a prior; the pose before the refinement is then the unpolished one.
+// Estimators of the full rotation benefit only from kFused. `noise_bound` is
+// that of the solver [m].
 PoseSummary SolveLevel(const PointsRef& source,
                        const PointsRef& target,
                        const PoseSolver& solver,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The door between the frames of the clouds and level frames. Everything behind
-// it works with z up: clouds and matches are leveled once, and the summary is
-// taken back,
+// Transforms between the frames of the clouds and level frames. Estimators and
+// verdict work in level frames, with z up: clouds and matches are leveled once,
+// and the summary is transformed back,
 //
 //   x_in_level = L x,   target_from_source = L_t^-1 T_level L_s,            (1)
 //
@@ -20,8 +20,8 @@
 
 namespace quatro {
 
-// Rotates column by column, so that equal columns stay equal to the last bit,
-// which a product of matrices does not promise.
+// Rotates column by column, so that equal columns remain equal bit for bit. A
+// product of matrices does not guarantee that.
 Points Leveled(const Eigen::Matrix3d& level_from_cloud,
                const PointsRef& points);
 
@@ -35,8 +35,8 @@ PoseBounds Leveled(const LevelFrames& frames,
                    const InsOptions& ins,
                    const PoseBounds& bounds);
 
-// Takes everything in the summary but the matches back to the frames of the
-// clouds, by (1).
+// Transforms everything in the summary except the matches back to the frames of
+// the clouds by (1).
 void TakeBack(const LevelFrames& frames, RegistrationSummary* summary);
 
 }  // namespace quatro

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Two clouds and a guess, without any matches: what global registration is
-// compared with.
+// Local registration from a guess, without matches, for comparison with global
+// registration:
 //
 //   clouds -> voxels -> normals of the 20 nearest -> ICP, G-ICP or VG-ICP
 //          -> verdict
 //
-// A guess is no evidence, and a local minimum looks like a right pose: nothing
-// rules out chance. The verdict is never better than ambiguous.
+// A guess is no evidence, and a local minimum looks like a correct pose. So
+// chance cannot be ruled out, and the verdict is never better than ambiguous.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_LOCAL_REGISTRATION_H_
 #define QUATRO_ROBUST_REGISTRATION_LOCAL_REGISTRATION_H_
@@ -23,24 +23,24 @@
 
 namespace quatro {
 
-// By options.refinement, whose method must not be kNone, on voxel means of
-// options.front_end.voxel_size. The pose found is summary.refinement's and
-// summary.solution's; there are no matches. A pose outside of options.bounds is
-// no answer.
+// Aligns voxel means of options.front_end.voxel_size by options.refinement,
+// whose method must not be kNone. The pose is in summary.refinement and in
+// summary.solution; there are no matches. A pose outside of options.bounds is
+// rejected.
 RegistrationSummary RegisterLocally(const PointCloud& source,
                                     const PointCloud& target,
                                     const Rigid3& initial_target_from_source,
                                     const RegistrationOptions& options);
 
-// Another aligner of the voxel means. Options that it does not know of are up
-// to it.
+// Another aligner of the voxel means. It may ignore options that it does not
+// know.
 using CloudAligner =
     std::function<AlignmentSummary(const Points& source,
                                    const Points& target,
                                    const Rigid3& initial_target_from_source,
                                    const RefinementOptions& options)>;
 
-// The same by `align` in place of ours, to compare with others.
+// The same with another aligner, for comparison.
 RegistrationSummary RegisterLocally(const PointCloud& source,
                                     const PointCloud& target,
                                     const Rigid3& initial_target_from_source,

@@ -45,8 +45,8 @@ struct Method {
   // The solver, null for kClouds; `options` with shared values.
   PoseSolver (*make)(const RegistrationOptions& options);
 
-  // Sets what makes the method another than that it builds on, e.g. the number
-  // of iterations of ransac1k; null if there is nothing to set.
+  // Sets the options that define the method, for example the number of
+  // iterations of ransac1k; null if there are none.
   void (*adjust)(RegistrationOptions* options);
 };
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// All options of the way from clouds, or from matched points, to a verdict.
+// All options of a registration, from clouds or matched points to a verdict.
 //
-// Seed, threads, noise bound and the vertical stand once, here. Each part has
-// fields of these names too, because it can be called by itself; behind the two
-// doors they must be left at their defaults or equal those here: IsValid()
-// refuses others.
+// Seed, threads, noise bound and the vertical are set once, here. Parts that
+// can be called by themselves have fields with the same names. In a
+// registration these must have their default values or the values here;
+// IsValid() rejects others.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_OPTIONS_H_
 #define QUATRO_ROBUST_REGISTRATION_OPTIONS_H_
@@ -33,7 +33,7 @@
 
 namespace quatro {
 
-// See above; the defaults are those of preset kitti.
+// The defaults are those of preset kitti.
 struct RegistrationOptions {
   FrontEndOptions front_end;
 
@@ -49,11 +49,11 @@ struct RegistrationOptions {
   // Another estimator in place of `method`, given the matches with z up.
   PoseSolver solver;
 
-  // Half the edge of the box that the residual of an inlier lies in, or the
-  // radius of its ball, depending on the estimator [m].
+  // The largest residual of an inlier [m]: on each axis or as a distance,
+  // depending on the estimator.
   double noise_bound = 0.3;
 
-  // Where the pose may lie; unbounded by default.
+  // A prior on the pose; unbounded by default.
   PoseBounds bounds;
 
   // Roll and pitch from an INS, and which way is up.

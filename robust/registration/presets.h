@@ -15,26 +15,28 @@
 namespace quatro {
 
 //   kitti        64 beams outdoors: voxels 0.3 m, normals 0.9 m, FPFH 1.5 m.
-//   paper        the paper's for the same: 0.3, 0.5 and 0.65 m, c = 0.15 m for
-//                points and their differences alike, mu started from the
-//                residuals before any fit; nothing that the paper does not
-//                have. Also as kitti_paper.
-//   reference    the authors' later code: 0.3, 0.5 and 0.75 m, 0.3 m doubled
-//                for differences, mu started from those of the plain fit.
-//   indoor       16 beams indoors: the paper's voxels for NAVER LABS, 0.1 m,
-//                the rest in proportion as in kitti.
+//   paper        the paper's options for 64 beams outdoors: 0.3, 0.5 and
+//                0.65 m; c = 0.15 m for points and for differences; mu starts
+//                from the residuals before any fit. No extensions. Also called
+//                kitti_paper.
+//   reference    the authors' later code: 0.3, 0.5 and 0.75 m; c = 0.3 m,
+//                doubled for differences; mu starts from the residuals of the
+//                plain fit. No extensions.
+//   indoor       16 beams indoors: the paper's voxels for NAVER LABS, 0.1 m;
+//                the other lengths are in proportion as in kitti.
 std::vector<std::string> PresetNames();
 
-// Nullopt for any other name.
+// Returns nullopt for any other name.
 std::optional<RegistrationOptions> MakePreset(const std::string& name);
 
-// Options for these clouds, by their own density and extent: the voxel size at
-// which the larger of them keeps about 15,000 points, but not below the typical
-// distance between neighbours in the sparser, and enlarged, by 16 at most,
-// until two thirds of the points have a surface around them within the radius
-// of the normals (features/surface_share.h), which takes more where beams are
-// few; the rest in proportion as in kitti. Clouds without points give preset
-// kitti.
+// Options for these clouds from their density and extent. The voxel size starts
+// as the size at which the larger cloud keeps about 15,000 points, but at least
+// the typical distance between neighbors in the sparser cloud. It is enlarged,
+// at most 16 times, until two thirds of the points have a surface within the
+// radius of the normals (features/surface_share.h). Sensors with few beams need
+// this. The other lengths are in proportion as in kitti. If nothing is
+// registered, twice and 3.5 times these lengths are tried. Clouds without
+// points give preset kitti.
 RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target);
 

@@ -1,19 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// From a global answer to a precise one: local registration of the clouds
-// (solvers/local/icp.h, gicp.h, vgicp.h) from the pose that matched points
-// gave.
+// Refines a global pose by local registration of the clouds
+// (solvers/local/icp.h, gicp.h, vgicp.h).
 //
-// Local registration always finds something near, so it is not trusted blindly.
-// The refined pose takes the place of the other only if it
+// Local registration always converges to something nearby, so its result is
+// checked. The refined pose is accepted only if
 //
-//   converged, held by the surfaces in every direction,
-//   moved no farther than max_translation and max_rotation, and
-//   is no stranger to the matches: of those within two noise bounds of the pose
-//   before, q_i = R p_i + t, at least min_kept_matches times as many are so
-//   after.
+//   the alignment converged and the surfaces constrain every direction,
+//   the pose moved by at most max_translation and max_rotation, and
+//   it agrees with the matches: let n be the number of matches with residual
+//   |q_i - R p_i - t| of at most two noise bounds. The refined pose must keep
+//   at least min_kept_matches n of the unrefined pose.
 //
-// Otherwise the pose before stands, and the message says why.
+// Otherwise the unrefined pose is kept, and the message says why.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_REFINEMENT_H_
 #define QUATRO_ROBUST_REGISTRATION_REFINEMENT_H_
@@ -28,18 +27,18 @@
 
 namespace quatro {
 
-// What refines the pose.
+// The method that refines the pose.
 enum class RefinementMethod { kNone, kIcp, kGicp, kVgicp };
 
 // "none", "icp", "gicp" or "vgicp".
 const char* RefinementName(RefinementMethod method);
 
-// The method, and when its answer is refused.
+// The method, and when its result is rejected.
 struct RefinementOptions {
   RefinementMethod method = RefinementMethod::kNone;
   LocalAlignmentOptions alignment;
-  double epsilon = 1e-3;    // Of G-ICP and VG-ICP.
-  double voxel_size = 1.0;  // Of VG-ICP [m].
+  double epsilon = 1e-3;    // For G-ICP and VG-ICP.
+  double voxel_size = 1.0;  // For VG-ICP [m].
 
   double max_translation = 2.0;   // Of the source's middle [m].
   double max_rotation = 0.3;      // [rad]
@@ -49,7 +48,7 @@ struct RefinementOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The pose after, and why it was taken or refused.
+// The refined pose, and why it was accepted or rejected.
 struct RefinementSummary {
   RefinementMethod method = RefinementMethod::kNone;
   AlignmentSummary alignment;
@@ -60,15 +59,16 @@ struct RefinementSummary {
   Rigid3 target_from_source;            // The refined pose iff accepted.
   Rigid3 unrefined_target_from_source;  // As given.
 
-  // From the pose given to the one found, accepted or not; 0 without one.
+  // The motion from the unrefined to the refined pose, accepted or not; 0
+  // without a refined pose.
   double moved_translation = 0.0;  // Of the source's middle [m].
   double moved_rotation = 0.0;     // [rad]
 
-  // From unrefined_target_from_source.
+  // Sets the motion from unrefined_target_from_source to `found`.
   void SetMoved(const Eigen::Vector3d& source_middle, const Rigid3& found);
 };
 
-// Local registration by the method, from a pose. kNone gives no answer.
+// Runs local registration from a pose. kNone gives no pose.
 AlignmentSummary Align(const DescribedCloud& source,
                        const DescribedCloud& target,
                        const Rigid3& initial_target_from_source,

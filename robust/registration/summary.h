@@ -24,8 +24,8 @@ namespace quatro {
 
 // Everything is in the frames of the clouds as they were given.
 struct RegistrationSummary {
-  // Why nothing was tried: an option out of range, a cloud without points or
-  // too wide. Empty otherwise.
+  // Why there is no result: an option is out of range, or a cloud has no points
+  // or is too wide. Empty otherwise.
   std::string error;
 
   Verdict verdict;

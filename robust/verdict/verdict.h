@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Whether an answer can be relied on.
+// The verdict: whether a pose can be trusted.
 //
-//   how many matches hold it          against what the estimator needs
-//   the chance that it is accidental  robust/verdict/false_alarms.h
-//   a second answer as good           robust/verdict/match_rival.h
-//   the clouds, where they are known  robust/verdict/evidence.h
+//   number of inliers          compared with what the estimator needs
+//   probability by chance      robust/verdict/false_alarms.h
+//   rival by matches           robust/verdict/match_rival.h
+//   evidence from the clouds   robust/verdict/evidence.h
 //                |
 //                v
-//   the probability that it is right  robust/verdict/success_model.h
+//   probability of a correct pose   robust/verdict/success_model.h
 //                |
 //                v
-//   registered, ambiguous, degenerate or insufficient, and why
+//   registered, ambiguous, degenerate or insufficient, and the reason
 //
-// Right is within 2 m and 10 deg of the truth, the paper's measure of success.
+// A pose is correct within 2 m and 10 deg of the truth, the paper's criterion.
 
 #ifndef QUATRO_ROBUST_VERDICT_VERDICT_H_
 #define QUATRO_ROBUST_VERDICT_VERDICT_H_
@@ -33,20 +33,20 @@
 
 namespace quatro {
 
-// What can be said of an answer.
+// The outcome of a registration.
 enum class Status {
-  kRegistered,    // There is an answer, and it is right as far as can be told.
-  kAmbiguous,     // There is an answer, and another could be right as well.
-  kDegenerate,    // The consistent matches do not hold the pose.
-  kInsufficient,  // There are too few consistent matches to try.
+  kRegistered,    // The pose is probably correct.
+  kAmbiguous,     // There is a pose, but it may be incorrect.
+  kDegenerate,    // The consistent matches do not constrain the pose.
+  kInsufficient,  // There are too few consistent matches.
 };
 
 // "registered", "ambiguous", "degenerate" or "insufficient".
 const char* StatusName(Status status);
 
-// What is asked for before an answer is vouched for.
+// When a pose is registered.
 struct VerdictOptions {
-  // Registered iff the probability of success is no less.
+  // The least probability of a correct pose.
   double min_probability = 0.8;
 
   MatchRivalOptions rival;  // Register() replaces seed, threads and vertical.
@@ -55,15 +55,15 @@ struct VerdictOptions {
   bool IsValid(std::string* error) const;
 };
 
-// What can be said of the answer, and from what.
+// The status and the evidence for it.
 struct Verdict {
   Status status = Status::kInsufficient;
   std::string reason = "no registration was tried";
 
-  // That the answer is right; 0 where there is none.
+  // Of a correct pose; 0 without a pose.
   double probability = 0.0;
 
-  // What it was computed from.
+  // The features that the probability was computed from.
   std::vector<Feature> features;
 
   Eigen::Index num_matches = 0;           // Copies counted once.
@@ -72,12 +72,12 @@ struct Verdict {
   std::optional<MatchRival> rival;
   std::optional<GeometricEvidence> geometry;
 
-  // Whether the answer is vouched for.
+  // Whether the pose is registered.
   bool IsRegistered() const { return status == Status::kRegistered; }
 };
 
-// The verdict on what an estimator reports from these matches, also without an
-// answer; `noise_bound` [m]. No geometry: the matches alone decide.
+// Judges the summary of an estimator for these matches, with or without a pose.
+// `noise_bound` is in [m]. Without geometry, only the matches decide.
 Verdict Judge(const PointsRef& source,
               const PointsRef& target,
               const PoseSummary& summary,
