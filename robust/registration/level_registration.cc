@@ -106,8 +106,15 @@ class LevelRegistration {
       const auto& more = summary_.surface_observability->unobservable;
       unobservable.insert(unobservable.end(), more.begin(), more.end());
     }
-    geometry_ = MeasureGeometricEvidence(
-        *source_, *target_, pose, contacts, voxel_size, evidence, num_threads);
+    // Without enough structure to measure, there is no evidence for the pose.
+    geometry_ = MeasureGeometricEvidence(*source_,
+                                         *target_,
+                                         pose,
+                                         contacts,
+                                         voxel_size,
+                                         evidence,
+                                         num_threads)
+                    .value_or(GeometricEvidence());
     FinishStage("evidence");
   }
 

@@ -217,6 +217,23 @@ TEST(Ladder, ScansOfDifferentPlacesAreNotRegistered) {
   }
 }
 
+// Flat ground fits itself after any shift; no surface could show which.
+TEST(Register, FlatGroundIsNotRegistered) {
+  PointCloud source;
+  source.points.resize(3, 40 * 40);
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 40; ++j) {
+      source.points.col(40 * i + j) << 0.5 * i, 0.5 * j, 0.0;
+    }
+  }
+  PointCloud target = source;
+  target.points.row(0).array() += 3.0;
+  const RegistrationSummary summary = Register(source, target, {});
+  EXPECT_FALSE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+  EXPECT_LT(summary.verdict.probability, 0.8);
+  EXPECT_FALSE(summary.verdict.reason.empty());
+}
+
 TEST(PoseSearchOptions, ErrorsNameTheField) {
   const auto error_of = [](const auto& change) {
     RegistrationOptions options;
