@@ -210,7 +210,7 @@ std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
                                             const std::string& origin,
                                             const PoseBounds& bounds) const {
   std::vector<PoseCandidate> candidates;
-  if (!aligner_) return candidates;
+  if (!aligner_ || matched_source.cols() == 0) return candidates;
   const Eigen::Matrix3d as_given = Eigen::Matrix3d::Identity();
   Propose(
       matched_source, matched_target, origin, as_given, as_given, &candidates);
