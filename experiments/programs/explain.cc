@@ -139,13 +139,20 @@ std::string ExplainSearch(const Json& report) {
       " candidates were aligned with the scans; ";
   text += rung == 0.0 ? std::string("none is more probable")
                       : "the answer is from rung " + Number(rung);
-  const Json& best = candidates[0];
+  // The best of the rung that gave the answer.
+  const std::string origin = "rung " + Number(rung == 0.0 ? 1.0 : rung);
+  std::size_t first = 0;
+  while (first + 1 < candidates.size() &&
+         !candidates[first]["origin"].get<std::string>().starts_with(origin)) {
+    ++first;
+  }
+  const Json& best = candidates[first];
   text += "; the best has a score of " + Number(best["score"], 2) + ", with " +
           Percent(best["overlap"]) + " overlap and " +
           Percent(best["contradicted_share"]) + " in free space (" +
           best["origin"].get<std::string>() + ")";
-  if (candidates.size() > 1) {
-    text += ", the next one " + Number(candidates[1]["score"], 2);
+  if (first + 1 < candidates.size()) {
+    text += ", the next one " + Number(candidates[first + 1]["score"], 2);
   }
   return Paragraph("search", text);
 }

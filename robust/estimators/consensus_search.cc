@@ -411,8 +411,9 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
         }
       });
   std::vector<Cell> all;
-  for (const auto& some : cells_of)
+  for (const auto& some : cells_of) {
     all.insert(all.end(), some.begin(), some.end());
+  }
   std::sort(all.begin(), all.end(), IsBefore);
   const std::vector<Cell> cells = WithoutNeighbors(
       all,
@@ -452,7 +453,6 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
     if (!is_new) continue;
     kept.push_back(one);
     Proposal proposal;
-    proposal.origin = "consensus";
     const Eigen::Matrix3d rotation = RotationZ(one->yaw);
     proposal.target_from_source = {rotation,
                                    matches.target_middle +

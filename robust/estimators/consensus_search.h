@@ -47,9 +47,10 @@ struct ConsensusSearchOptions {
   std::optional<Eigen::Vector3d> source_center;
   std::optional<Eigen::Vector3d> target_center;
 
-  // Two proposals differ by more than either.
-  double min_yaw_difference = 0.07;  // [rad]
-  double min_shift_in_bounds = 3.0;  // Of the middle of the source [r].
+  // Two proposals differ by more than one of these: in yaw [rad], or in where
+  // they move the middle of the source [noise bounds].
+  double min_yaw_difference = 0.07;
+  double min_shift_in_bounds = 3.0;
 
   int num_threads = 1;  // 0: all cores. Never changes the answer.
 

@@ -7,7 +7,6 @@
 #define QUATRO_ROBUST_ESTIMATORS_PROPOSAL_H_
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "features/base/rigid3.h"
@@ -17,7 +16,6 @@ namespace quatro {
 // One candidate.
 struct Proposal {
   Rigid3 target_from_source;
-  std::string origin;                 // The proposer, for example "consensus".
   std::vector<Eigen::Index> inliers;  // Columns of the matches, ascending.
 
   // How much better than chance the inliers explain the matches [nat].

@@ -49,7 +49,7 @@ class CandidateSolver {
     to_input(&summary.translation_inliers);
     summary.num_matches = source.cols();
     if (!IsAsGood(summary)) {
-      // The candidate stands for itself.
+      // The candidate itself is the answer.
       summary.termination = PoseTermination::kSolved;
       summary.message =
           "solved; the structure of both scans fits the candidate "

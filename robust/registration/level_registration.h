@@ -17,7 +17,8 @@
 
 namespace quatro {
 
-// What an attempt needs besides matches; everything must outlive the attempt.
+// The input of RegisterLevel() besides the matches. It refers to objects that
+// must outlive the call.
 struct LevelProblem {
   const DescribedCloud* source;  // Null without clouds.
   const DescribedCloud* target;

@@ -40,7 +40,7 @@ using CloudAligner =
                                    const Rigid3& initial_target_from_source,
                                    const RefinementOptions& options)>;
 
-// The same with another aligner, for comparison.
+// Like the function above, but with another aligner, for comparison.
 RegistrationSummary RegisterLocally(const PointCloud& source,
                                     const PointCloud& target,
                                     const Rigid3& initial_target_from_source,

@@ -59,8 +59,9 @@ struct RegistrationOptions {
   // Roll and pitch from an INS, and which way is up.
   InsOptions ins;
 
-  // What is tried if the estimator's pose is not registered. For two clouds and
-  // methods that search (robust/registration/methods.h).
+  // The search for other poses if the estimator's pose is not registered. It
+  // needs two clouds and a method that searches
+  // (robust/registration/methods.h).
   PoseSearchOptions search;
 
   CovarianceOptions covariance;

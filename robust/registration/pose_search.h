@@ -55,9 +55,10 @@ struct PoseSearchOptions {
   int max_num_proposals = 128;
   int num_aligned = 16;  // Proposals from which VG-ICP starts.
 
-  double max_tilt = 0.1;  // Of the consensus search [rad].
+  // The tilt between the scans that the consensus search allows for [rad].
+  double max_tilt = 0.1;
 
-  // The radius of matches for the search and for what follows, in noise bounds.
+  // The largest residual of an inlier of a candidate, in noise bounds.
   double bound_factor = 2.0;
 
   // Returns false and says why in *error if a value is out of range.
@@ -67,7 +68,7 @@ struct PoseSearchOptions {
 // A pose, where it came from, and what speaks for it.
 struct PoseCandidate {
   Rigid3 target_from_source;
-  std::string origin;  // Of the proposal.
+  std::string origin;  // The rung and the vertical of its proposal.
   double log_likelihood_ratio = 0.0;
   GeometricScore geometry;
 

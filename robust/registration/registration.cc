@@ -3,6 +3,7 @@
 
 #include "robust/registration/registration.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -126,7 +127,9 @@ RegistrationSummary Register(const PointCloud& source,
   std::optional<RegistrationSummary> best;
   double seconds = 0.0;
   for (const double factor : options.search.scale_factors) {
-    const RegistrationOptions scaled = ScaledBy(factor, options);
+    RegistrationOptions scaled = ScaledBy(factor, options);
+    scaled.search.time_limit_seconds =
+        std::max(0.0, options.search.time_limit_seconds - seconds);
     RegistrationSummary summary =
         RegisterMatched(MatchClouds(source, target, scaled), scaled);
     summary.scale_factor = factor;
@@ -137,8 +140,9 @@ RegistrationSummary Register(const PointCloud& source,
       break;
     }
   }
-  if (!best)
+  if (!best) {  // There are no factors, which the options' check reports.
     return RegisterMatched(MatchClouds(source, target, options), options);
+  }
   best->total_seconds = seconds;
   return *std::move(best);
 }

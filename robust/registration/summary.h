@@ -48,15 +48,15 @@ struct RegistrationSummary {
   // unobservable directions of solution.covariance.
   std::optional<SurfaceObservability> surface_observability;
 
-  // Which rung gave the answer (robust/registration/ladder.h): 0 is the
-  // estimator by itself. The candidates of all rungs that were tried, the best
-  // of each first.
+  // The rung that gave the pose (robust/registration/ladder.h); 0 is the
+  // estimator by itself.
   int rung = 0;
 
   // The noise bound and the lengths of the front end are those of the options
   // times this (PoseSearchOptions::scale_factors).
   double scale_factor = 1.0;
 
+  // The candidates of all rungs that were tried, the best of each rung first.
   std::vector<PoseCandidate> candidates;
 
   std::vector<StageTime> stage_times;

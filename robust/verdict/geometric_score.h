@@ -34,8 +34,11 @@ namespace quatro {
 
 // The parts of (1), each in [0, 1].
 struct GeometricScore {
-  double overlap = 0.0;             // The first factor.
-  double contradicted_share = 0.0;  // Of the points whose sight is known.
+  double overlap = 0.0;  // The first factor.
+
+  // The share of points in free space, among the points in directions that the
+  // other scan observed.
+  double contradicted_share = 0.0;
 
   // (1)
   double value() const {

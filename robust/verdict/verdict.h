@@ -60,7 +60,7 @@ struct Verdict {
   Status status = Status::kInsufficient;
   std::string reason = "no registration was tried";
 
-  // Of a correct pose; 0 without a pose.
+  // The probability that the pose is correct; 0 without a pose.
   double probability = 0.0;
 
   // The features that the probability was computed from.
