@@ -28,6 +28,12 @@ struct Match {
   friend bool operator==(const Match&, const Match&) = default;
 };
 
+// Column i of `source` is matched with column i of `target` [m].
+struct MatchedPoints {
+  Points source;
+  Points target;
+};
+
 // Returns all mutual nearest neighbors in ascending order of `source`.
 std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       const Fpfh& target,

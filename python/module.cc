@@ -112,17 +112,26 @@ Registration RegisterClouds(const py::object& source,
   const PointsArgument target_points(target, "target");
   PointCloud source_cloud;
   PointCloud target_cloud;
+  std::optional<double> voxel_size;
+  if (given.contains("voxel_size") &&
+      PyNumber_Check(given["voxel_size"].ptr())) {
+    voxel_size = py::float_(given["voxel_size"]);
+  }
   RegistrationOptions options;
-  if (preset != "auto") options = FindPreset(preset, "auto");
+  if (preset != "auto") {
+    options = FindPreset(preset, "auto");
+  } else if (voxel_size) {
+    options = MakeAutoOptions(*voxel_size);
+  }
   {
     const py::gil_scoped_release release;
     source_cloud = MakeCloud(source_points);
     target_cloud = MakeCloud(target_points);
-    if (preset == "auto") {
+    if (preset == "auto" && !voxel_size) {
       options = MakeAutoOptions(source_cloud, target_cloud);
-      options.num_threads = 0;
     }
   }
+  options.num_threads = 0;
   Read(method, true, given, "register", &options);
 
   Registration answer;
@@ -283,15 +292,16 @@ std::string DescribeMethods(bool has_clouds) {
 }
 
 constexpr char kRegister[] =
-    R"(register(source, target, preset="kitti", *, method="quatro", **options)
+    R"(register(source, target, preset="auto", *, method="quatro", **options)
 --
 
 Finds the pose between two scans of one place, far apart or not.
 
 source, target: (N, 3) arrays of points [m] or Open3D point clouds; x ahead, z
   up, the sensor at the origin. Points that are not finite are left out.
-preset: kitti (64 beams outdoors), paper, kitti_paper or reference (as
-  published), indoor (16 beams), or auto (from the clouds).
+preset: auto (all lengths from the clouds), kitti (64 beams outdoors), paper,
+  kitti_paper or reference (as published), or indoor (16 beams). With auto, a
+  given voxel_size decides the other lengths.
 method: a key of quatro.methods(). Local registration by icp, gicp or vgicp starts
   from guess=..., and is at best ambiguous.
 
@@ -350,7 +360,7 @@ void BindFunctions(py::module_* module) {
               &RegisterClouds,
               py::arg("source"),
               py::arg("target"),
-              py::arg("preset") = "kitti",
+              py::arg("preset") = "auto",
               py::kw_only(),
               py::arg("method") = "quatro",
               register_doc.c_str());

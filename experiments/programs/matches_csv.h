@@ -12,13 +12,9 @@
 #include <string>
 
 #include "features/base/types.h"
+#include "features/matching.h"
 
 namespace quatro {
-
-struct MatchedPoints {
-  Points source;  // [m]
-  Points target;  // [m]
-};
 
 // Returns nullopt and says file, line, column and reason in *error for anything
 // but six finite numbers a line, and for an empty file; "-" is standard input.

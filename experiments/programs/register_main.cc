@@ -32,9 +32,10 @@ DEFINE_int32(point_floats,
              "Numbers of a point of a .bin: x, y, z, the intensity, others; 0: "
              "told by the file");
 DEFINE_string(preset,
-              "kitti",
-              "kitti (64 beams outdoors), paper or reference (as published), "
-              "indoor (16 beams), or auto (from the clouds themselves)");
+              "auto",
+              "auto (all lengths from the clouds themselves), kitti (64 beams "
+              "outdoors), paper or reference (as published), or indoor (16 "
+              "beams)");
 DEFINE_string(method, "quatro", "Method; see --list_methods");
 DEFINE_bool(list_methods, false, "List the methods and exit");
 DEFINE_string(options,
@@ -175,9 +176,14 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     const quatro::PointCloud& source,
     const quatro::PointCloud& target,
     std::string* error) {
-  auto options = FLAGS_preset == "auto"
-                     ? quatro::MakeAutoOptions(source, target)
-                     : quatro::MakePreset(FLAGS_preset);
+  std::optional<quatro::RegistrationOptions> options;
+  if (FLAGS_preset != "auto") {
+    options = quatro::MakePreset(FLAGS_preset);
+  } else if (FLAGS_voxel_size > 0.0) {
+    options = quatro::MakeAutoOptions(FLAGS_voxel_size);
+  } else {
+    options = quatro::MakeAutoOptions(source, target);
+  }
   if (!options) {
     *error = "--preset=" + FLAGS_preset + ", must be auto";
     for (const std::string& name : quatro::PresetNames()) *error += ", " + name;

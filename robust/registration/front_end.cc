@@ -56,21 +56,34 @@ Fpfh Describe(const Points& points,
 // A larger radius reaches across most of a scan.
 constexpr double kMaxVoxels = 100.0;
 
-// The descriptors of the cloud by the radii in `options`.
-Fpfh DescribeAgain(const DescribedCloud& cloud,
+// The descriptors of points by the radii in `options`.
+Fpfh DescribeAgain(const Points& points,
+                   const Eigen::Vector3d& sensor,
                    const FrontEndOptions& options,
                    int num_threads) {
+  const KdTree tree(points);
   const Neighborhoods neighborhoods =
-      FindNeighborhoods(*cloud.tree, options.fpfh_radius, num_threads);
-  const Points normals = EstimateNormals(cloud.points(),
-                                         neighborhoods,
-                                         options.normal_radius,
-                                         cloud.sensor,
-                                         num_threads);
+      FindNeighborhoods(tree, options.fpfh_radius, num_threads);
+  const Points normals = EstimateNormals(
+      points, neighborhoods, options.normal_radius, sensor, num_threads);
   if (options.describe) {
-    return options.describe(cloud.points(), normals, options.fpfh_radius);
+    return options.describe(points, normals, options.fpfh_radius);
   }
-  return ComputeFpfh(cloud.points(), normals, neighborhoods, num_threads);
+  return ComputeFpfh(points, normals, neighborhoods, num_threads);
+}
+
+// The points of the matches, column by column.
+MatchedPoints PointsOf(const std::vector<Match>& matches,
+                       const Points& source,
+                       const Points& target) {
+  const auto num_matches = static_cast<Eigen::Index>(matches.size());
+  MatchedPoints points{Points(3, num_matches), Points(3, num_matches)};
+  for (Eigen::Index k = 0; k < num_matches; ++k) {
+    const Match& match = matches[static_cast<std::size_t>(k)];
+    points.source.col(k) = source.col(match.source);
+    points.target.col(k) = target.col(match.target);
+  }
+  return points;
 }
 
 }  // namespace
@@ -95,14 +108,25 @@ bool FrontEndOptions::IsValid(std::string* error) const {
   return false;
 }
 
-std::vector<Match> MatchAgain(const DescribedCloud& source,
-                              const DescribedCloud& target,
-                              const FrontEndOptions& options,
-                              int num_threads) {
+MatchedPoints MatchAgain(const DescribedCloud& source,
+                         const DescribedCloud& target,
+                         const FrontEndOptions& options,
+                         int num_threads) {
+  std::string error;  // The voxels of the clouds were smaller and fit.
+  const auto voxels_of = [&](const DescribedCloud& cloud) {
+    return SampleVoxels(cloud.points(), options.voxel_size, &error)
+        .value_or(cloud.points());
+  };
+  const Points source_voxels = voxels_of(source);
+  const Points target_voxels = voxels_of(target);
   // One after the other: a describer need not be thread-safe.
-  const Fpfh source_fpfh = DescribeAgain(source, options, num_threads);
-  const Fpfh target_fpfh = DescribeAgain(target, options, num_threads);
-  return MatchMutualNearest(source_fpfh, target_fpfh, num_threads);
+  const Fpfh source_fpfh =
+      DescribeAgain(source_voxels, source.sensor, options, num_threads);
+  const Fpfh target_fpfh =
+      DescribeAgain(target_voxels, target.sensor, options, num_threads);
+  return PointsOf(MatchMutualNearest(source_fpfh, target_fpfh, num_threads),
+                  source_voxels,
+                  target_voxels);
 }
 
 MatchedClouds MatchClouds(
@@ -173,21 +197,16 @@ MatchedClouds MatchClouds(
   std::vector<Match> matches =
       MatchMutualNearest(fpfh[0], fpfh[1], num_threads);
   clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
-  clouds.mutual_matches = matches;
+  clouds.mutual_matches = PointsOf(matches, *source_voxels, *target_voxels);
   if (options.tuple_test) {
     TupleTestOptions tuple = options.tuple;
     tuple.seed = seed;
     tuple.num_threads = num_threads;
     matches = FilterByTupleTest(matches, *source_voxels, *target_voxels, tuple);
   }
-  const auto num_matches = static_cast<Eigen::Index>(matches.size());
-  clouds.matched_source.resize(3, num_matches);
-  clouds.matched_target.resize(3, num_matches);
-  for (Eigen::Index k = 0; k < num_matches; ++k) {
-    const Match& match = matches[static_cast<std::size_t>(k)];
-    clouds.matched_source.col(k) = source_voxels->col(match.source);
-    clouds.matched_target.col(k) = target_voxels->col(match.target);
-  }
+  MatchedPoints tested = PointsOf(matches, *source_voxels, *target_voxels);
+  clouds.matched_source = std::move(tested.source);
+  clouds.matched_target = std::move(tested.target);
   finish_stage("matching");
   return clouds;
 }

@@ -58,18 +58,19 @@ struct MatchedClouds {
   Points matched_target;                // [m]
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  // All mutual matches, as columns of the voxel means.
-  std::vector<Match> mutual_matches;
+  // All mutual matches of the voxel means.
+  MatchedPoints mutual_matches;
 
   std::vector<StageTime> stage_times;
 };
 
-// Mutual matches of two described clouds by descriptors of the radii in
-// `options`, without a tuple test; the clouds' own normals are not used.
-std::vector<Match> MatchAgain(const DescribedCloud& source,
-                              const DescribedCloud& target,
-                              const FrontEndOptions& options,
-                              int num_threads);
+// Mutual matches between coarser voxels of two described clouds, without a
+// tuple test. The sizes are those of `options`; the clouds' own normals are not
+// used.
+MatchedPoints MatchAgain(const DescribedCloud& source,
+                         const DescribedCloud& target,
+                         const FrontEndOptions& options,
+                         int num_threads);
 
 // `source_up` and `target_up` are the upward directions in the clouds, unit
 // vectors. Options must be valid.

@@ -14,7 +14,8 @@
 namespace quatro {
 namespace {
 
-// Radii of rung 2 over those of the options.
+// Sizes of rung 2 over those of the options.
+constexpr double kVoxelFactor = 2.0;
 constexpr double kNormalFactor = 4.0 / 3.0;
 constexpr double kFpfhFactor = 7.0 / 3.0;
 
@@ -80,27 +81,16 @@ class CandidateSolver {
 };
 
 // The matches of a rung.
-std::vector<Match> MatchesOf(int rung,
-                             const std::vector<Match>& mutual_matches,
-                             const LevelProblem& problem) {
+MatchedPoints MatchesOf(int rung,
+                        const MatchedPoints& mutual_matches,
+                        const LevelProblem& problem) {
   if (rung == 1) return mutual_matches;
   FrontEndOptions front_end = problem.options.front_end;
+  front_end.voxel_size *= kVoxelFactor;
   front_end.normal_radius *= kNormalFactor;
   front_end.fpfh_radius *= kFpfhFactor;
   return MatchAgain(
       *problem.source, *problem.target, front_end, problem.options.num_threads);
-}
-
-template <typename ColumnOf>
-Points ColumnsOf(const std::vector<Match>& matches,
-                 const Points& points,
-                 const ColumnOf& column_of) {
-  Points columns(3, static_cast<Eigen::Index>(matches.size()));
-  for (std::size_t k = 0; k < matches.size(); ++k) {
-    columns.col(static_cast<Eigen::Index>(k)) =
-        points.col(column_of(matches[k]));
-  }
-  return columns;
 }
 
 // Stages of all rungs are summed by name.
@@ -121,18 +111,10 @@ double SumOf(const std::vector<StageTime>& times) {
 
 }  // namespace
 
-Points SourceColumns(const std::vector<Match>& matches, const Points& source) {
-  return ColumnsOf(matches, source, [](const Match& m) { return m.source; });
-}
-
-Points TargetColumns(const std::vector<Match>& matches, const Points& target) {
-  return ColumnsOf(matches, target, [](const Match& m) { return m.target; });
-}
-
-std::vector<Match> Climb(const std::vector<Match>& mutual_matches,
-                         const LevelProblem& problem,
-                         RegistrationSummary* summary) {
-  std::vector<Match> answer;
+MatchedPoints Climb(const MatchedPoints& mutual_matches,
+                    const LevelProblem& problem,
+                    RegistrationSummary* summary) {
+  MatchedPoints answer;
   const RegistrationOptions& options = problem.options;
   if (summary->verdict.IsRegistered() || options.search.max_rung == 0) {
     return answer;
@@ -151,11 +133,12 @@ std::vector<Match> Climb(const std::vector<Match>& mutual_matches,
                      options.search,
                      options.num_threads);
     }
-    const std::vector<Match> matches = MatchesOf(rung, mutual_matches, problem);
-    const Points p = SourceColumns(matches, problem.source->points());
-    const Points q = TargetColumns(matches, problem.target->points());
+    const MatchedPoints matches = MatchesOf(rung, mutual_matches, problem);
     std::vector<PoseCandidate> candidates =
-        search->Find(p, q, "rung " + std::to_string(rung), problem.bounds);
+        search->Find(matches.source,
+                     matches.target,
+                     "rung " + std::to_string(rung),
+                     problem.bounds);
     const StageTime search_time{"search", stopwatch.Lap()};
     AddTime(search_time, &summary->stage_times);
     if (options.progress) options.progress(search_time);
@@ -171,8 +154,8 @@ std::vector<Match> Climb(const std::vector<Match>& mutual_matches,
                         candidates.front().target_from_source,
                         options.search.bound_factor * options.noise_bound);
     RegisterLevel(
-        p,
-        q,
+        matches.source,
+        matches.target,
         {problem.source, problem.target, problem.bounds, options, solver},
         &attempt);
     attempt.rung = rung;

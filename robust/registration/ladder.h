@@ -5,7 +5,7 @@
 //   rung 0  the estimator on the matches that passed the tuple test
 //   rung 1  poses searched in all mutual matches
 //           (robust/registration/pose_search.h)
-//   rung 2  the same with descriptors of larger radii
+//   rung 2  the same with coarser voxels and descriptors of larger radii
 //
 // On a rung the best candidate is taken. The estimator runs on its inliers, so
 // that the yaw comes from GNC with its certificate, and the rest follows as
@@ -17,25 +17,19 @@
 #ifndef QUATRO_ROBUST_REGISTRATION_LADDER_H_
 #define QUATRO_ROBUST_REGISTRATION_LADDER_H_
 
-#include <vector>
-
-#include "features/base/types.h"
-#include "features/matching.h"
+#include "robust/registration/front_end.h"
 #include "robust/registration/level_registration.h"
 #include "robust/registration/summary.h"
 
 namespace quatro {
 
 // Climbs from `summary`, that of rung 0, and replaces it by a better one. The
-// problem must have clouds. `mutual_matches` are all that the front end found.
-// Returns the matches of the answer if it is from a higher rung, else nothing.
-std::vector<Match> Climb(const std::vector<Match>& mutual_matches,
-                         const LevelProblem& problem,
-                         RegistrationSummary* summary);
-
-// The points of the matches, column by column.
-Points SourceColumns(const std::vector<Match>& matches, const Points& source);
-Points TargetColumns(const std::vector<Match>& matches, const Points& target);
+// problem must have clouds. `mutual_matches` are all that the front end found,
+// in the frames of the problem. Returns the matches of the answer if it is from
+// a higher rung, else none.
+MatchedPoints Climb(const MatchedPoints& mutual_matches,
+                    const LevelProblem& problem,
+                    RegistrationSummary* summary);
 
 }  // namespace quatro
 

@@ -24,6 +24,8 @@ PoseSolver Make(const RegistrationOptions& options) {
 constexpr auto kMakeQuatro = Make<&RegistrationOptions::quatro, SolveQuatro>;
 constexpr auto kMakeArcConsensus =
     Make<&RegistrationOptions::arc_consensus, SolveArcConsensus>;
+constexpr auto kMakeConsensus =
+    Make<&RegistrationOptions::consensus, SolveConsensusPose>;
 constexpr auto kMakeTeaser = Make<&RegistrationOptions::teaser, SolveTeaser>;
 constexpr auto kMakeFgr = Make<&RegistrationOptions::fgr, SolveFgr>;
 
@@ -112,6 +114,14 @@ constexpr Method kMethods[] = {
      false,
      ArcConsensusOptionList,
      kMakeArcConsensus,
+     nullptr},
+    {"consensus",
+     "no graph: votes of all matches over yaw and translation",
+     kMatches,
+     kTaken,
+     false,
+     ConsensusOptionList,
+     kMakeConsensus,
      nullptr},
     {"teaser",
      "TEASER++: exact clique, SO(3) by GNC, translation by axis",

@@ -418,6 +418,13 @@ OptionList ArcConsensusOptionList(RegistrationOptions* options) {
            &o->min_planar_length_factor}};
 }
 
+OptionList ConsensusOptionList(RegistrationOptions* options) {
+  return {{"max_tilt",
+           "[rad]",
+           "tilt between the scans",
+           &options->consensus.max_tilt}};
+}
+
 OptionList TeaserOptionList(RegistrationOptions* options) {
   TeaserOptions* o = &options->teaser;
   OptionList list = {PruningOption(&o->pruning),

@@ -80,6 +80,7 @@ OptionList BoundsOptionList(RegistrationOptions* options);
 OptionList QuatroOptionList(RegistrationOptions* options);
 OptionList QuatroExactOptionList(RegistrationOptions* options);
 OptionList ArcConsensusOptionList(RegistrationOptions* options);
+OptionList ConsensusOptionList(RegistrationOptions* options);
 OptionList TeaserOptionList(RegistrationOptions* options);
 OptionList FgrOptionList(RegistrationOptions* options);
 OptionList RansacOptionList(RegistrationOptions* options);

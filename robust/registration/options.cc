@@ -18,6 +18,7 @@ void ForEachSharedField(Options& o, const Visit& visit) {
   };
   bound("quatro.noise_bound", o.quatro.noise_bound);
   bound("arc_consensus.noise_bound", o.arc_consensus.noise_bound);
+  bound("consensus.noise_bound", o.consensus.noise_bound);
   bound("teaser.noise_bound", o.teaser.noise_bound);
   bound("fgr.noise_bound", o.fgr.noise_bound);
   bound("ransac.minimal.noise_bound", o.ransac.minimal.noise_bound);
@@ -35,6 +36,7 @@ void ForEachSharedField(Options& o, const Visit& visit) {
   };
   threads("quatro.num_threads", o.quatro.num_threads);
   threads("arc_consensus.num_threads", o.arc_consensus.num_threads);
+  threads("consensus.num_threads", o.consensus.num_threads);
   threads("teaser.num_threads", o.teaser.num_threads);
   threads("fgr.num_threads", o.fgr.num_threads);
   threads("ransac.num_threads", o.ransac.num_threads);
@@ -77,12 +79,28 @@ bool RegistrationOptions::IsValid(std::string* error) const {
   *error = problem.str();
   return error->empty() && SharesValues(*this, error) &&
          front_end.IsValid(error) && quatro.IsValid(error) &&
-         arc_consensus.IsValid(error) && teaser.IsValid(error) &&
-         fgr.IsValid(error) && ransac.IsValid(error) && bounds.IsValid(error) &&
-         ins.IsValid(error) && search.IsValid(error) &&
+         arc_consensus.IsValid(error) && consensus.IsValid(error) &&
+         teaser.IsValid(error) && fgr.IsValid(error) && ransac.IsValid(error) &&
+         bounds.IsValid(error) && ins.IsValid(error) && search.IsValid(error) &&
          covariance.IsValid(error) && surface_observability.IsValid(error) &&
          evidence.IsValid(error) && verdict.IsValid(error) &&
          refinement.IsValid(error);
+}
+
+RegistrationOptions ScaledBy(double factor, RegistrationOptions options) {
+  RefinementOptions& refinement = options.refinement;
+  for (double* length : {&options.front_end.voxel_size,
+                         &options.front_end.normal_radius,
+                         &options.front_end.fpfh_radius,
+                         &options.noise_bound,
+                         &options.covariance.max_translation_std,
+                         &refinement.voxel_size,
+                         &refinement.max_translation,
+                         &refinement.alignment.max_correspondence_distance,
+                         &refinement.alignment.translation_tolerance}) {
+    *length *= factor;
+  }
+  return options;
 }
 
 RegistrationOptions WithSharedValues(RegistrationOptions options) {

@@ -16,6 +16,7 @@
 
 #include "features/base/stopwatch.h"
 #include "robust/estimators/arc_consensus.h"
+#include "robust/estimators/consensus_pose.h"
 #include "robust/estimators/fgr.h"
 #include "robust/estimators/pose_bounds.h"
 #include "robust/estimators/pose_summary.h"
@@ -42,6 +43,7 @@ struct RegistrationOptions {
   std::string method = "quatro";
   QuatroOptions quatro;
   ArcConsensusOptions arc_consensus;
+  ConsensusPoseOptions consensus;
   TeaserOptions teaser;
   FgrOptions fgr;
   RansacOptions ransac;
@@ -81,6 +83,10 @@ struct RegistrationOptions {
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
+
+// The same with all lengths of the front end, the noise bound, the covariance
+// and the refinement times `factor` > 0. The bounds on the pose are as given.
+RegistrationOptions ScaledBy(double factor, RegistrationOptions options);
 
 // The same with seed, threads and noise bound handed down to every part.
 RegistrationOptions WithSharedValues(RegistrationOptions options);

@@ -22,7 +22,9 @@ constexpr double kGrowth = 1.15;
 constexpr double kMaxGrowth = 16.0;
 
 RegistrationOptions InProportionTo(double voxel_size) {
-  RegistrationOptions options;
+  RegistrationOptions options =
+      ScaledBy(voxel_size / RegistrationOptions().front_end.voxel_size,
+               RegistrationOptions());
   options.front_end.voxel_size = voxel_size;
   options.front_end.normal_radius = 3.0 * voxel_size;
   options.front_end.fpfh_radius = 5.0 * voxel_size;
@@ -143,7 +145,7 @@ std::optional<RegistrationOptions> MakePreset(const std::string& name) {
 RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target) {
   if (source.points.cols() == 0 || target.points.cols() == 0) {
-    return InProportionTo(0.3);
+    return MakeAutoOptions(0.3);
   }
   const double size =
       std::max(SizeForWantedVoxels(source), SizeForWantedVoxels(target));
@@ -154,9 +156,13 @@ RegistrationOptions MakeAutoOptions(const PointCloud& source,
   const double chosen =
       std::max(SizeForSurfaces(source, dense), SizeForSurfaces(target, dense));
   const double unit = std::pow(10.0, std::floor(std::log10(chosen)) - 1.0);
-  RegistrationOptions options =
-      InProportionTo(std::round(chosen / unit) * unit);
+  return MakeAutoOptions(std::round(chosen / unit) * unit);
+}
+
+RegistrationOptions MakeAutoOptions(double voxel_size) {
+  RegistrationOptions options = InProportionTo(voxel_size);
   options.search.scale_factors = {1.0, 2.0, 3.5};
+  options.refinement.method = RefinementMethod::kVgicp;
   return options;
 }
 

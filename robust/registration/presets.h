@@ -34,11 +34,14 @@ std::optional<RegistrationOptions> MakePreset(const std::string& name);
 // the typical distance between neighbors in the sparser cloud. It is enlarged,
 // at most 16 times, until two thirds of the points have a surface within the
 // radius of the normals (features/surface_share.h). Sensors with few beams need
-// this. The other lengths are in proportion as in kitti. If nothing is
-// registered, twice and 3.5 times these lengths are tried. Clouds without
-// points give preset kitti.
+// this. Clouds without points give 0.3 m.
 RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target);
+
+// The same for a given voxel size > 0 [m]. The other lengths are in proportion
+// as in kitti. If nothing is registered, twice and 3.5 times these lengths are
+// tried. The pose is refined by VG-ICP.
+RegistrationOptions MakeAutoOptions(double voxel_size);
 
 }  // namespace quatro
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <optional>
-#include <vector>
+#include <utility>
 
 #include "robust/registration/ladder.h"
 #include "robust/registration/level.h"
@@ -45,17 +45,6 @@ bool Prepare(const RegistrationOptions& options,
   return true;
 }
 
-// All lengths of the front end and the noise bound times a factor.
-RegistrationOptions ScaledBy(double factor,
-                             const RegistrationOptions& options) {
-  RegistrationOptions scaled = options;
-  scaled.front_end.voxel_size *= factor;
-  scaled.front_end.normal_radius *= factor;
-  scaled.front_end.fpfh_radius *= factor;
-  scaled.noise_bound *= factor;
-  return scaled;
-}
-
 bool IsBetter(const RegistrationSummary& a, const RegistrationSummary& b) {
   if (a.verdict.IsRegistered() != b.verdict.IsRegistered()) {
     return a.verdict.IsRegistered();
@@ -72,38 +61,47 @@ void RegisterBehindDoor(const Matches& matches,
   const RegistrationOptions& options = prepared.options;
   const LevelFrames frames = MakeLevelFrames(options.ins);
   const PoseBounds bounds = Leveled(frames, options.ins, options.bounds);
-  std::vector<Match> rung_matches;
+  MatchedPoints rung_matches;
   const auto run = [&](const PointsRef& p,
                        const PointsRef& q,
                        const DescribedCloud* source,
-                       const DescribedCloud* target) {
+                       const DescribedCloud* target,
+                       const MatchedPoints* mutual_matches) {
     const LevelProblem problem{
         source, target, bounds, options, prepared.solver};
     RegisterLevel(p, q, problem, summary);
-    if (clouds) rung_matches = Climb(clouds->mutual_matches, problem, summary);
+    if (mutual_matches) rung_matches = Climb(*mutual_matches, problem, summary);
   };
   if (frames.AreIdentity()) {
     run(matches.source,
         matches.target,
         clouds ? &clouds->source : nullptr,
-        clouds ? &clouds->target : nullptr);
+        clouds ? &clouds->target : nullptr,
+        clouds ? &clouds->mutual_matches : nullptr);
   } else {
     std::optional<DescribedCloud> source, target;
+    std::optional<MatchedPoints> mutual_matches;
     if (clouds) {
       source = Leveled(frames.level_from_source, clouds->source);
       target = Leveled(frames.level_from_target, clouds->target);
+      mutual_matches = MatchedPoints{
+          Leveled(frames.level_from_source, clouds->mutual_matches.source),
+          Leveled(frames.level_from_target, clouds->mutual_matches.target)};
     }
     run(Leveled(frames.level_from_source, matches.source),
         Leveled(frames.level_from_target, matches.target),
         source ? &*source : nullptr,
-        target ? &*target : nullptr);
+        target ? &*target : nullptr,
+        mutual_matches ? &*mutual_matches : nullptr);
     TakeBack(frames, summary);
+    rung_matches.source =
+        frames.level_from_source.transpose() * rung_matches.source;
+    rung_matches.target =
+        frames.level_from_target.transpose() * rung_matches.target;
   }
-  if (!rung_matches.empty()) {
-    summary->matched_source =
-        SourceColumns(rung_matches, clouds->source.points());
-    summary->matched_target =
-        TargetColumns(rung_matches, clouds->target.points());
+  if (rung_matches.source.cols() > 0) {
+    summary->matched_source = std::move(rung_matches.source);
+    summary->matched_target = std::move(rung_matches.target);
   }
   summary->total_seconds += stopwatch.Lap();
 }

@@ -131,6 +131,7 @@ class EvidenceMeasurement {
                                         middle,
                                         evidence.weakest_direction,
                                         max_distance_,
+                                        voxel_size_,
                                         options_.rival,
                                         num_threads_);
     const Rigid3& rival = evidence.rival.rival_target_from_source;

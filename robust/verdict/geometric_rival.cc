@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kMinTurn = 10.0 * kDegree;
+constexpr double kMaxShift = 400.0;  // [voxel sizes]
 
 // D of equation (1): a rotation about the middle, then a shift.
 struct Move {
@@ -58,11 +59,13 @@ class Comparison {
     target_turned_ = source_grid_.Turn(target_sample_, Inverse(turned_));
   }
 
-  // o(D X), or -1 if too few points are left to compare.
-  double Count(const Eigen::Vector3d& shift) {
+  // o(D X), or -1 if too few points are left to compare, or at most
+  // `least_wanted` if o(D X) is at most that.
+  double Count(const Eigen::Vector3d& shift, double least_wanted = -1.0) {
     const Eigen::Vector3d shift_in_target = InTarget(shift);
     const OverlapCount of_source =
         target_grid_.Count(source_turned_, shift_in_target);
+    if (of_source.Share() <= least_wanted) return of_source.Share();
     const OverlapCount of_target = source_grid_.Count(
         target_turned_, -(turned_.rotation.transpose() * shift_in_target));
     in_range_ = {of_source.num_in_range, of_target.num_in_range};
@@ -124,7 +127,7 @@ Move FindBestShift(Comparison& comparison,
     if (std::hypot(x, y) > max_shift || !IsRival(comparison, move, options)) {
       return;
     }
-    const double overlap = comparison.Count(move.shift);
+    const double overlap = comparison.Count(move.shift, best.overlap);
     if (overlap > best.overlap) best = {yaw, move.shift, overlap};
   };
   const int reach = static_cast<int>(max_shift / step);
@@ -168,12 +171,12 @@ bool GeometricRivalOptions::IsValid(std::string* error) const {
   if (!(min_shift > 0.0 && std::isfinite(min_shift))) {
     problem << "evidence.rival.min_shift = " << min_shift
             << ", must be > 0 and finite";
-  } else if (!(max_shift >= min_shift && max_shift <= 100.0)) {
+  } else if (!(max_shift >= min_shift && max_shift <= kMaxShift)) {
     problem << "evidence.rival.max_shift = " << max_shift
-            << ", must be in [min_shift, 100] = [" << min_shift << ", 100]";
-  } else if (!(max_turned_shift >= 0.0 && max_turned_shift <= 100.0)) {
+            << ", must be in [min_shift, 400] = [" << min_shift << ", 400]";
+  } else if (!(max_turned_shift >= 0.0 && max_turned_shift <= kMaxShift)) {
     problem << "evidence.rival.max_turned_shift = " << max_turned_shift
-            << ", must be in [0, 100]";
+            << ", must be in [0, 400]";
   } else if (num_search_points < 1) {
     problem << "evidence.rival.num_search_points = " << num_search_points
             << ", must be >= 1";
@@ -191,8 +194,14 @@ GeometricRival FindGeometricRival(const DescribedCloud& source,
                                   const Eigen::Vector3d& middle,
                                   const Eigen::Vector3d& direction,
                                   double max_distance,
-                                  const GeometricRivalOptions& options,
+                                  double voxel_size,
+                                  const GeometricRivalOptions& given,
                                   int num_threads) {
+  GeometricRivalOptions options = given;
+  for (double* shift :
+       {&options.min_shift, &options.max_shift, &options.max_turned_shift}) {
+    *shift *= voxel_size;  // [m] from here on.
+  }
   std::optional<StructureGrid> source_grid;
   std::optional<StructureGrid> target_grid;
   ParallelDo(

@@ -30,9 +30,10 @@ namespace quatro {
 
 // The search for the rival.
 struct GeometricRivalOptions {
-  double min_shift = 2.0;         // [m]
-  double max_shift = 12.0;        // Without rotation [m].
-  double max_turned_shift = 8.0;  // After a rotation [m].
+  // Shifts [voxel sizes]. Voxels of 0.3 m make them 2, 12 and 8 m.
+  double min_shift = 20.0 / 3.0;
+  double max_shift = 40.0;               // Without rotation.
+  double max_turned_shift = 80.0 / 3.0;  // After a rotation.
 
   // A pose outside of them is no rival.
   PoseBounds bounds;
@@ -60,13 +61,15 @@ struct GeometricRival {
 // unit vector along which shifts are sampled most finely. Both are in the
 // target's frame. Overlap is computed from structure in the useful range of the
 // other sensor; a rival must have at least half as many such points as the pose
-// in both scans. `max_distance` is that of the overlap [m].
+// in both scans. `max_distance` is that of the overlap and `voxel_size` that of
+// the clouds, both in [m].
 GeometricRival FindGeometricRival(const DescribedCloud& source,
                                   const DescribedCloud& target,
                                   const Rigid3& target_from_source,
                                   const Eigen::Vector3d& middle,
                                   const Eigen::Vector3d& direction,
                                   double max_distance,
+                                  double voxel_size,
                                   const GeometricRivalOptions& options,
                                   int num_threads);
 

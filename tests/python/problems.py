@@ -6,7 +6,7 @@ import numpy as np
 
 # Methods by what they work on. `solve` has the first, `register` has all.
 MATCH_METHODS = ['auto', 'quatro', 'quatro_single', 'quatro_exact', 'quatro_ins', 'arc_consensus',
-                 'teaser', 'fgr', 'ransac', 'ransac1k', 'ransac10k']
+                 'consensus', 'teaser', 'fgr', 'ransac', 'ransac1k', 'ransac10k']
 REFINING_METHODS = ['quatro_c2f']
 LOCAL_METHODS = ['icp', 'gicp', 'vgicp']
 

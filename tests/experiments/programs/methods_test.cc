@@ -100,6 +100,7 @@ TEST(Methods, AllNamesResolveAndSolve) {
                             "quatro_single",
                             "quatro_exact",
                             "arc_consensus",
+                            "consensus",
                             "teaser",
                             "fgr",
                             "ransac1k",
@@ -197,9 +198,9 @@ TEST(Methods, AnInsIsTakenByThoseThatTurnAboutTheVertical) {
   options.ins.target_attitude = problem.target_attitude;
   for (const std::string& name : MatchMethodNames()) {
     const RegistrationSummary registration = RunMethod(name, matches, options);
-    const bool is_about_the_vertical = name == "auto" ||
-                                       name == "arc_consensus" ||
-                                       name.rfind("quatro", 0) == 0;
+    const bool is_about_the_vertical =
+        name == "auto" || name == "arc_consensus" || name == "consensus" ||
+        name.rfind("quatro", 0) == 0;
     if (!is_about_the_vertical) {
       EXPECT_FALSE(registration.target_from_source()) << name;
       EXPECT_THAT(registration.error,

@@ -262,15 +262,5 @@ TEST(PoseSearchOptions, ErrorsNameTheField) {
               HasSubstr("search.bound_factor = 0"));
 }
 
-TEST(Columns, AreThoseOfTheMatches) {
-  Points source(3, 3), target(3, 2);
-  source << 1, 2, 3, 4, 5, 6, 7, 8, 9;
-  target << 1, 2, 3, 4, 5, 6;
-  const std::vector<Match> matches = {{2, 0}, {0, 1}};
-  EXPECT_EQ(SourceColumns(matches, source).col(0), source.col(2));
-  EXPECT_EQ(SourceColumns(matches, source).col(1), source.col(0));
-  EXPECT_EQ(TargetColumns(matches, target).col(1), target.col(1));
-}
-
 }  // namespace
 }  // namespace quatro

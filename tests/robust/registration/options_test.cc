@@ -41,6 +41,7 @@ using Fields = std::vector<std::pair<std::string, Value*>>;
 Fields<double> NoiseBounds(RegistrationOptions* o) {
   return {{"quatro.noise_bound", &o->quatro.noise_bound},
           {"arc_consensus.noise_bound", &o->arc_consensus.noise_bound},
+          {"consensus.noise_bound", &o->consensus.noise_bound},
           {"teaser.noise_bound", &o->teaser.noise_bound},
           {"fgr.noise_bound", &o->fgr.noise_bound},
           {"ransac.minimal.noise_bound", &o->ransac.minimal.noise_bound}};
@@ -58,6 +59,7 @@ Fields<std::uint64_t> Seeds(RegistrationOptions* o) {
 Fields<int> Threads(RegistrationOptions* o) {
   return {{"quatro.num_threads", &o->quatro.num_threads},
           {"arc_consensus.num_threads", &o->arc_consensus.num_threads},
+          {"consensus.num_threads", &o->consensus.num_threads},
           {"teaser.num_threads", &o->teaser.num_threads},
           {"fgr.num_threads", &o->fgr.num_threads},
           {"ransac.num_threads", &o->ransac.num_threads},

@@ -223,7 +223,7 @@ TEST(GeometricEvidence, CorridorCanBeSlidAlongItsAxis) {
 TEST(GeometricEvidence, RivalIsDisplaced) {
   const ScanPair pair(Corridor());
   EvidenceOptions options;
-  options.rival.min_shift = 5.0;
+  options.rival.min_shift = 5.0 / kVoxelSize;
   const auto evidence =
       MeasureWith(options, pair.source, pair.target, pair.target_from_source);
   ASSERT_TRUE(evidence.has_value());
