@@ -82,7 +82,7 @@ struct RegistrationOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The same with seed, threads and noise bound handed down to every part.
+// Returns the options with seed, threads and noise bound set in every part.
 RegistrationOptions WithSharedValues(RegistrationOptions options);
 
 }  // namespace quatro
