@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the site: the guide and the reference of every public header. It can be
+# Builds the site: the guide and the reference of every header of the library. It can be
 # read from disk or from any web server.
 #   docs/build.sh [OUTPUT]     writes OUTPUT/index.html; OUTPUT is build/docs by default
 # Fails if mkdocs or Doxygen warns, if a link is broken, or if a browser would

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A sampled cloud and what is known of the surface at each of its points.
+// A sampled cloud, with the normal of the surface at each of its points.
 
 #ifndef QUATRO_FEATURES_DESCRIBED_CLOUD_H_
 #define QUATRO_FEATURES_DESCRIBED_CLOUD_H_
@@ -18,7 +18,7 @@ struct DescribedCloud {
   std::shared_ptr<const KdTree> tree;
   Points normals;  // Unit vectors; zero where the normal is unknown.
 
-  // Where the sensor stood, in the frame of the points [m].
+  // The position of the sensor in the frame of the points [m].
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
 
   // Whether the sensor saw all points from there, so that the space between is

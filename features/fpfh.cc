@@ -158,17 +158,11 @@ void FinishFpfh(const Histogram& spfh, std::int32_t num_pairs, Histogram* sum) {
   NormalizeParts(100.0f, sum);
 }
 
-}  // namespace
-
-Fpfh ComputeFpfh(const PointsRef& points,
-                 const PointsRef& normals,
-                 const Neighborhoods& neighborhoods,
-                 int num_threads) {
+// The points with their normals. Coordinates relative to a point of the cloud
+// keep their digits in single precision.
+std::vector<OrientedPoint> Orient(const PointsRef& points,
+                                  const PointsRef& normals) {
   const Eigen::Index n = points.cols();
-  Fpfh fpfh(kFpfhSize, n);
-  if (n == 0) return fpfh;
-  // Coordinates relative to a point of the cloud keep their digits in single
-  // precision.
   const Eigen::Vector3d center = points.col(n / 2);
   std::vector<OrientedPoint> oriented(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -183,6 +177,19 @@ Fpfh ComputeFpfh(const PointsRef& points,
         normal.y(),
         normal.z()};
   }
+  return oriented;
+}
+
+}  // namespace
+
+Fpfh ComputeFpfh(const PointsRef& points,
+                 const PointsRef& normals,
+                 const Neighborhoods& neighborhoods,
+                 int num_threads) {
+  const Eigen::Index n = points.cols();
+  Fpfh fpfh(kFpfhSize, n);
+  if (n == 0) return fpfh;
+  const std::vector<OrientedPoint> oriented = Orient(points, normals);
 
   // Each part is counted in its own array. Sums of integers do not depend on
   // how the cloud is split.

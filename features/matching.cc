@@ -16,6 +16,36 @@ namespace {
 
 constexpr Eigen::Index kPiece = 64;  // Queries per piece.
 
+// Replaces the entries in `nearest` of the given queries by nearer descriptors
+// in `others`; if `any` is set, any nearer one will do. Consecutive queries are
+// neighbors, so they find the same boxes in the cache.
+void FindNearest(const Fpfh& descriptors,
+                 const DescriptorIndex& index,
+                 const std::vector<std::int32_t>& columns,
+                 const DescriptorIndex& others,
+                 bool any,
+                 int num_threads,
+                 SimdLevel level,
+                 std::vector<NearestDescriptor>* nearest) {
+  const auto find = [&](Eigen::Index begin, Eigen::Index end) {
+    std::vector<DescriptorQuery> queries;
+    for (Eigen::Index k = begin; k < end; ++k) {
+      const std::int32_t i = columns[static_cast<std::size_t>(k)];
+      queries.push_back({descriptors.col(i).data(),
+                         index.coordinates().col(i).data(),
+                         (*nearest)[static_cast<std::size_t>(i)]});
+    }
+    others.FindNearer(any, level, queries);
+    for (Eigen::Index k = begin; k < end; ++k) {
+      const std::int32_t i = columns[static_cast<std::size_t>(k)];
+      (*nearest)[static_cast<std::size_t>(i)] =
+          queries[static_cast<std::size_t>(k - begin)].best;
+    }
+  };
+  ParallelFor(
+      num_threads, static_cast<Eigen::Index>(columns.size()), kPiece, find);
+}
+
 }  // namespace
 
 std::vector<Match> MatchMutualNearest(const Fpfh& source,
@@ -38,30 +68,16 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
     }
   });
 
-  // Consecutive queries are neighbors, so they find the same boxes in the
-  // cache.
   std::vector<NearestDescriptor> target_of(
       static_cast<std::size_t>(source.cols()));
-  const auto& sources = source_index->order();
-  const auto find_target = [&](Eigen::Index begin, Eigen::Index end) {
-    std::vector<DescriptorQuery> queries;
-    for (Eigen::Index k = begin; k < end; ++k) {
-      const std::int32_t i = sources[static_cast<std::size_t>(k)];
-      queries.push_back({source.col(i).data(),
-                         source_index->coordinates().col(i).data(),
-                         NearestDescriptor()});
-    }
-    target_index->FindNearer(false, level, queries);
-    for (Eigen::Index k = begin; k < end; ++k) {
-      const std::int32_t i = sources[static_cast<std::size_t>(k)];
-      target_of[static_cast<std::size_t>(i)] =
-          queries[static_cast<std::size_t>(k - begin)].best;
-    }
-  };
-  ParallelFor(num_threads,
-              static_cast<Eigen::Index>(sources.size()),
-              kPiece,
-              find_target);
+  FindNearest(source,
+              *source_index,
+              source_index->order(),
+              *target_index,
+              /*any=*/false,
+              num_threads,
+              level,
+              &target_of);
 
   // If several sources have the same nearest target, only the nearest of them
   // can be the target's nearest. It is, unless some other source is nearer.
@@ -83,25 +99,14 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
       targets.push_back(j);
     }
   }
-  const auto find_source = [&](Eigen::Index begin, Eigen::Index end) {
-    std::vector<DescriptorQuery> queries;
-    for (Eigen::Index k = begin; k < end; ++k) {
-      const std::int32_t j = targets[static_cast<std::size_t>(k)];
-      queries.push_back({target.col(j).data(),
-                         target_index->coordinates().col(j).data(),
-                         source_of[static_cast<std::size_t>(j)]});
-    }
-    source_index->FindNearer(true, level, queries);
-    for (Eigen::Index k = begin; k < end; ++k) {
-      const std::int32_t j = targets[static_cast<std::size_t>(k)];
-      source_of[static_cast<std::size_t>(j)] =
-          queries[static_cast<std::size_t>(k - begin)].best;
-    }
-  };
-  ParallelFor(num_threads,
-              static_cast<Eigen::Index>(targets.size()),
-              kPiece,
-              find_source);
+  FindNearest(target,
+              *target_index,
+              targets,
+              *source_index,
+              /*any=*/true,
+              num_threads,
+              level,
+              &source_of);
 
   std::vector<Match> matches;
   for (std::size_t i = 0; i < target_of.size(); ++i) {

@@ -46,7 +46,7 @@ QUATRO_SIMD_INLINE std::int32_t AngleBin(float y, float x) {
                                             : middle + num_past;
 }
 
-// The same operations as ComputePairFeature(), except for the angle.
+// Computes like ComputePairFeature(), except for the angle.
 QUATRO_SIMD_CLONES void FindAll(const OrientedPoint& own,
                                 const float* __restrict x,
                                 const float* __restrict y,

@@ -179,7 +179,7 @@ Solution SolveMatches(const py::object& source_points,
   return answer;
 }
 
-// What align() is given beside clouds; each method takes what it has.
+// The arguments of align() beside the clouds; each method reads its own.
 struct GivenAlignment {
   VgicpOptions vgicp;
 
@@ -405,5 +405,6 @@ void BindFunctions(py::module_* module) {
 PYBIND11_MODULE(_quatro, module) {
   module.attr("__version__") = QUATRO_VERSION;
   quatro::BindSummaries(&module);
+  quatro::BindAlignment(&module);
   quatro::BindFunctions(&module);
 }

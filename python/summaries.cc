@@ -3,20 +3,18 @@
 
 #include "python/summaries.h"
 
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "features/base/rigid3.h"
 #include "python/arrays.h"
+#include "python/class_parts.h"
 
 namespace quatro {
 namespace {
 
 namespace py = pybind11;
-
-constexpr double kDegree = M_PI / 180.0;  // [rad]
 
 template <typename Summary>
 const PoseSummary& SolutionOf(const Summary& s) {
@@ -27,37 +25,6 @@ const Verdict& VerdictOf(const Summary& s) {
   return s.summary.verdict;
 }
 
-py::object OrNone(const std::optional<double>& value) {
-  if (!value) return py::none();
-  return py::float_(*value);
-}
-
-py::dict Seconds(const std::vector<StageTime>& times) {
-  py::dict seconds;
-  for (const StageTime& time : times) {
-    const py::str stage(time.stage);
-    const double before =
-        seconds.contains(stage) ? seconds[stage].cast<double>() : 0.0;
-    seconds[stage] = before + time.seconds;
-  }
-  return seconds;
-}
-
-std::string Print(const char* format, double a, double b, double c, double d) {
-  char text[200];
-  std::snprintf(text, sizeof(text), format, a, b, c, d);
-  return text;
-}
-
-std::string Describe(const Rigid3& pose) {
-  const Eigen::Vector3d& t = pose.translation;
-  return Print("yaw=%.2f deg, translation=(%.3f, %.3f, %.3f) m",
-               Yaw(pose.rotation) / kDegree,
-               t.x(),
-               t.y(),
-               t.z());
-}
-
 // Formats "Solution(registered, quatro, probability=0.99, yaw=...)".
 template <typename Summary>
 std::string Represent(const char* name, const Summary& summary) {
@@ -66,7 +33,7 @@ std::string Represent(const char* name, const Summary& summary) {
   std::string text = std::string(name) + "(" + StatusName(verdict.status) +
                      ", " + summary.method;
   if (solution.target_from_source) {
-    text += Print(", probability=%.2f, ", verdict.probability, 0, 0, 0) +
+    text += Print(", probability=%.2f, ", verdict.probability) +
             Describe(*solution.target_from_source);
   }
   return text + ", matches=" + std::to_string(solution.num_matches) +
@@ -126,58 +93,34 @@ py::object RefinementOf(const RegistrationSummary& summary) {
   return dict;
 }
 
-// All properties by name; views are copied.
-py::dict AsDict(const py::object& self) {
-  const py::object is_property =
-      py::module_::import("builtins").attr("property");
-  py::dict values;
-  for (const py::handle name : py::type::of(self).attr("__dict__")) {
-    const py::object member = py::type::of(self).attr(name);
-    if (!py::isinstance(member, is_property)) continue;
-    const py::object value = self.attr(name);
-    values[name] =
-        py::isinstance<py::array>(value) ? value.attr("copy")() : value;
+py::list CandidatesOf(const RegistrationSummary& summary) {
+  py::list list;
+  for (const PoseCandidate& candidate : summary.candidates) {
+    py::dict entry;
+    entry["target_from_source"] =
+        Copy(std::optional<Rigid3>(candidate.target_from_source));
+    entry["origin"] = candidate.origin;
+    entry["score"] = candidate.Score();
+    entry["overlap"] = candidate.geometry.overlap;
+    entry["contradicted_share"] = candidate.geometry.contradicted_share;
+    entry["log_likelihood_ratio"] = candidate.log_likelihood_ratio;
+    list.append(entry);
   }
-  return values;
+  return list;
 }
 
-constexpr const char* kAsDictDoc =
-    "dict: all properties by name, for a table or another process; "
-    "arrays are copies. Can be pickled.";
-
-constexpr const char* kTransformDoc =
-    "transform(points)\n--\n\n"
-    "(N, 3) points of the source in the target's frame [m], as float64. Raises "
-    "ValueError\nif there is no pose.";
-
-// Moved by the pose, if there is one.
-py::array Transform(const std::optional<Rigid3>& target_from_source,
-                    const std::string& message,
-                    const py::object& points) {
-  if (!target_from_source) {
-    throw py::value_error("there is no pose to transform by: " + message);
-  }
-  return TakePoints(
-      target_from_source->Apply(PointsArgument(points, "points").View()));
-}
-
-// What answers from matches and from clouds have in common.
+// Returns a function that adds a read-only property: add(name, doc, get).
 template <typename Summary>
-void BindCommon(const char* name, py::class_<Summary>* type) {
-  const auto add = [type](const char* field, const char* doc, auto get) {
+auto Adder(py::class_<Summary>* type) {
+  return [type](const char* field, const char* doc, auto get) {
     type->def_property_readonly(field, get, doc);
   };
-  type->def("__repr__",
-            [name](const Summary& s) { return Represent(name, s); });
-  type->def("as_dict", &AsDict, kAsDictDoc);
-  type->def(
-      "transform",
-      [](const Summary& s, const py::object& points) {
-        return Transform(
-            SolutionOf(s).target_from_source, SolutionOf(s).message, points);
-      },
-      py::arg("points"),
-      kTransformDoc);
+}
+
+// The method, the verdict and how the estimator ended.
+template <typename Summary>
+void BindStatus(py::class_<Summary>* type) {
+  const auto add = Adder(type);
   add("method", "str: the estimator's name.", [](const Summary& s) {
     return s.method;
   });
@@ -202,6 +145,12 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
     }
     return dict;
   });
+}
+
+// The pose and its uncertainty.
+template <typename Summary>
+void BindPose(py::class_<Summary>* type) {
+  const auto add = Adder(type);
   add("message", "str: how the estimator ended.", [](const Summary& s) {
     return SolutionOf(s).message;
   });
@@ -232,6 +181,12 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
   add("unobservable_directions",
       "list of str: directions that the data do not constrain.",
       [](const Summary& s) { return UnobservableOf(SolutionOf(s)); });
+}
+
+// Inliers and counts.
+template <typename Summary>
+void BindCounts(py::class_<Summary>* type) {
+  const auto add = Adder(type);
   type->def_property_readonly(
       "inliers",
       [](const py::object& self) {
@@ -265,6 +220,12 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
   add("num_inliers",
       "int: matches within the noise bound of the final pose.",
       [](const Summary& s) { return VerdictOf(s).num_inliers; });
+}
+
+// Certificate, times and notes of the stages.
+template <typename Summary>
+void BindStages(py::class_<Summary>* type) {
+  const auto add = Adder(type);
   add("certificate",
       "dict or None: gnc_cost, optimal_cost and gap of the yaw problem.",
       [](const Summary& s) { return CertificateOf(SolutionOf(s)); });
@@ -285,6 +246,65 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
     }
     return dict;
   });
+}
+
+// The members that results from matches and from clouds have in common.
+template <typename Summary>
+void BindCommon(const char* name, py::class_<Summary>* type) {
+  type->def("__repr__",
+            [name](const Summary& s) { return Represent(name, s); });
+  type->def("as_dict", &AsDict, kAsDictDoc);
+  type->def(
+      "transform",
+      [](const Summary& s, const py::object& points) {
+        return Transform(
+            SolutionOf(s).target_from_source, SolutionOf(s).message, points);
+      },
+      py::arg("points"),
+      kTransformDoc);
+  BindStatus(type);
+  BindPose(type);
+  BindCounts(type);
+  BindStages(type);
+}
+
+// How the clouds were sampled and matched, and what the search did.
+void BindSearch(py::class_<Registration>* registration) {
+  registration
+      ->def_property_readonly(
+          "num_source_voxels",
+          [](const Registration& r) { return r.summary.num_source_voxels; },
+          "int: points of the source after sampling.")
+      .def_property_readonly(
+          "num_target_voxels",
+          [](const Registration& r) { return r.summary.num_target_voxels; },
+          "int: points of the target after sampling.")
+      .def_property_readonly(
+          "num_mutual_matches",
+          [](const Registration& r) { return r.summary.num_mutual_matches; },
+          "int: matches before the tuple test.")
+      .def_property_readonly(
+          "rung",
+          [](const Registration& r) { return r.summary.rung; },
+          "int: 0 if the estimator's own pose is the answer, else the rung of "
+          "the search that gave it.")
+      .def_property_readonly(
+          "scale_factor",
+          [](const Registration& r) { return r.summary.scale_factor; },
+          "float: the lengths of the front end and the noise bound are those "
+          "of the options times this.")
+      .def_property_readonly(
+          "candidates",
+          [](const Registration& r) { return CandidatesOf(r.summary); },
+          "list of dict: poses that the search found, the best of each rung "
+          "first: target_from_source, origin, score, overlap, "
+          "contradicted_share, log_likelihood_ratio. Empty without a search.")
+      .def_readonly("num_source_dropped",
+                    &Registration::num_source_dropped,
+                    "int: points of the source that are not finite.")
+      .def_readonly("num_target_dropped",
+                    &Registration::num_target_dropped,
+                    "int: points of the target that are not finite.");
 }
 
 }  // namespace
@@ -318,131 +338,8 @@ void BindSummaries(py::module_* module) {
           [](const Registration& r) { return RefinementOf(r.summary); },
           "dict or None: result of refine=..., if any: method, is_accepted, "
           "message, moved_translation [m], moved_rotation [rad], "
-          "unrefined_target_from_source.")
-      .def_property_readonly(
-          "num_source_voxels",
-          [](const Registration& r) { return r.summary.num_source_voxels; },
-          "int: points of the source after sampling.")
-      .def_property_readonly(
-          "num_target_voxels",
-          [](const Registration& r) { return r.summary.num_target_voxels; },
-          "int: points of the target after sampling.")
-      .def_property_readonly(
-          "num_mutual_matches",
-          [](const Registration& r) { return r.summary.num_mutual_matches; },
-          "int: matches before the tuple test.")
-      .def_property_readonly(
-          "rung",
-          [](const Registration& r) { return r.summary.rung; },
-          "int: 0 if the estimator's own pose is the answer, else the rung of "
-          "the search that gave it.")
-      .def_property_readonly(
-          "scale_factor",
-          [](const Registration& r) { return r.summary.scale_factor; },
-          "float: the lengths of the front end and the noise bound are those "
-          "of the options times this.")
-      .def_property_readonly(
-          "candidates",
-          [](const Registration& r) {
-            py::list list;
-            for (const PoseCandidate& candidate : r.summary.candidates) {
-              py::dict entry;
-              entry["target_from_source"] =
-                  Copy(std::optional<Rigid3>(candidate.target_from_source));
-              entry["origin"] = candidate.origin;
-              entry["score"] = candidate.Score();
-              entry["overlap"] = candidate.geometry.overlap;
-              entry["contradicted_share"] =
-                  candidate.geometry.contradicted_share;
-              entry["log_likelihood_ratio"] = candidate.log_likelihood_ratio;
-              list.append(entry);
-            }
-            return list;
-          },
-          "list of dict: poses that the search found, the best of each rung "
-          "first: target_from_source, origin, score, overlap, "
-          "contradicted_share, log_likelihood_ratio. Empty without a search.")
-      .def_readonly("num_source_dropped",
-                    &Registration::num_source_dropped,
-                    "int: points of the source that are not finite.")
-      .def_readonly("num_target_dropped",
-                    &Registration::num_target_dropped,
-                    "int: points of the target that are not finite.");
-
-  py::class_<Alignment>(*module, "Alignment", "The result of local alignment.")
-      .def("__repr__",
-           [](const Alignment& a) {
-             const AlignmentSummary& s = a.summary;
-             std::string text = std::string("Alignment(") +
-                                TerminationName(s.termination) + ", " +
-                                a.method;
-             if (s.target_from_source) {
-               text += ", " + Describe(*s.target_from_source);
-             }
-             return text +
-                    ", iterations=" + std::to_string(s.iterations.size()) +
-                    ", inliers=" + std::to_string(s.num_inliers) + ": " +
-                    s.message + ")";
-           })
-      .def("as_dict", &AsDict, kAsDictDoc)
-      .def(
-          "transform",
-          [](const Alignment& a, const py::object& points) {
-            return Transform(
-                a.summary.target_from_source, a.summary.message, points);
-          },
-          py::arg("points"),
-          kTransformDoc)
-      .def_readonly("method", &Alignment::method, "str: icp, gicp or vgicp.")
-      .def_property_readonly(
-          "termination",
-          [](const Alignment& a) {
-            return std::string(TerminationName(a.summary.termination));
-          },
-          "str: converged, not_converged, degenerate or insufficient.")
-      .def_property_readonly(
-          "is_usable",
-          [](const Alignment& a) { return a.summary.IsUsable(); },
-          "bool: there is a pose, which is not necessarily correct.")
-      .def_property_readonly(
-          "message",
-          [](const Alignment& a) { return a.summary.message; },
-          "str: why it stopped.")
-      .def_property_readonly(
-          "target_from_source",
-          [](const Alignment& a) { return Copy(a.summary.target_from_source); },
-          "(4, 4) float64 or None: moves homogeneous points of the source onto "
-          "the target [m].")
-      .def_property_readonly(
-          "cost",
-          [](const Alignment& a) { return a.summary.cost; },
-          "float: final cost.")
-      .def_property_readonly(
-          "costs",
-          [](const Alignment& a) {
-            py::list costs;
-            for (const AlignmentIteration& iteration : a.summary.iterations) {
-              costs.append(iteration.cost);
-            }
-            return costs;
-          },
-          "list of float: cost before each step.")
-      .def_property_readonly(
-          "num_inliers",
-          [](const Alignment& a) { return a.summary.num_inliers; },
-          "int: corresponding points.")
-      .def_property_readonly(
-          "conditioning",
-          [](const Alignment& a) { return a.summary.conditioning; },
-          "float: the smallest eigenvalue of the Hessian over the largest.")
-      .def_property_readonly(
-          "hessian",
-          [](const Alignment& a) { return Copy(a.summary.hessian); },
-          "(6, 6) float64: Hessian of half the cost, rotation [rad] first.")
-      .def_property_readonly(
-          "stage_seconds",
-          [](const Alignment& a) { return Seconds(a.summary.stage_times); },
-          "dict: time by stage [s].");
+          "unrefined_target_from_source.");
+  BindSearch(&registration);
 }
 
 }  // namespace quatro

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What the functions of the module return, as Python classes.
+// The results of the module's functions, as Python classes.
 
 #ifndef QUATRO_PYTHON_SUMMARIES_H_
 #define QUATRO_PYTHON_SUMMARIES_H_
@@ -36,7 +36,11 @@ struct Alignment {
   AlignmentSummary summary;
 };
 
+// Adds Solution and Registration to the module.
 void BindSummaries(pybind11::module_* module);
+
+// Adds Alignment to the module.
+void BindAlignment(pybind11::module_* module);
 
 }  // namespace quatro
 

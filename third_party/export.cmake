@@ -2,7 +2,8 @@
 # "robust/estimators/quatro.h", as they include each other, or as
 # <quatro/robust/estimators/quatro.h>, which cannot collide with other projects'
 # files. Therefore both include/ and include/quatro/ are on the path, and the
-# build folder has an equivalent of the former.
+# build folder has an equivalent of the former. Headers that the public ones
+# include are in include/quatro/internal/, which is on the path for them.
 set(QUATRO_EXPORTED features solvers robust)
 
 configure_file(third_party/version.h.in include/quatro/version.h @ONLY)
@@ -27,12 +28,15 @@ install(TARGETS quatro ${targets} EXPORT quatro
                 COMPONENT quatro_programs NAMELINK_COMPONENT quatro_development
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT quatro_development
         INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-                             "${CMAKE_INSTALL_INCLUDEDIR}/quatro")
+                             "${CMAKE_INSTALL_INCLUDEDIR}/quatro"
+                             "${CMAKE_INSTALL_INCLUDEDIR}/quatro/internal")
 install(EXPORT quatro FILE quatro-targets.cmake NAMESPACE quatro::
         DESTINATION "${QUATRO_CMAKE_DIR}" COMPONENT quatro_development)
-install(DIRECTORY ${QUATRO_EXPORTED}
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quatro" COMPONENT quatro_development
-        FILES_MATCHING PATTERN "*.h")
+install(CODE "set(QUATRO_SOURCE \"${PROJECT_SOURCE_DIR}\")
+set(QUATRO_HEADERS \"${PROJECT_BINARY_DIR}/include/quatro/quatro.h\")
+set(QUATRO_INCLUDE_DIR \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/quatro\")"
+        COMPONENT quatro_development)
+install(SCRIPT third_party/install_headers.cmake COMPONENT quatro_development)
 install(FILES "${PROJECT_BINARY_DIR}/include/quatro/quatro.h"
               "${PROJECT_BINARY_DIR}/include/quatro/version.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quatro" COMPONENT quatro_development)

@@ -21,7 +21,7 @@ std::string QuoteCsvCell(std::string_view cell);
 std::string JoinCsvLine(const std::vector<std::string>& cells);
 
 // As many cells as there are commas outside quotes, and one. Nullopt if a quote
-// is not closed, or stands anywhere but around a whole cell.
+// is not closed, or is anywhere but around a whole cell.
 std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line);
 
 }  // namespace quatro

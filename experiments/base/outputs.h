@@ -26,17 +26,18 @@ struct OutputFlag {
   std::string path;
 };
 
-// Whether a file could be written here, as far as that can be told beforehand.
+// Whether a file could be written here, as far as this is known beforehand.
 bool CanWrite(const std::string& path, std::string* error);
 
-// The same for all outputs of a program, of which empty ones are left out. None
-// may be one of the inputs or another output, and at most one standard output.
+// Whether all outputs of a program can be written; empty ones are left out.
+// None may be one of the inputs or another output, and at most one standard
+// output.
 bool CanWriteAll(const std::vector<OutputFlag>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error);
 
-// Whether the file's name, if there is one and it is no "-", has the ending of
-// the only format that it can get, e.g. ".png".
+// Whether the file's name has the ending of its only format, for example
+// ".png". True for an empty name and for "-".
 bool HasEnding(const OutputFlag& output,
                const std::string& ending,
                std::string* error);
@@ -44,7 +45,7 @@ bool HasEnding(const OutputFlag& output,
 // Whether a folder can be asked for by this name: not empty and not "-".
 bool CanBeFolder(const OutputFlag& output, std::string* error);
 
-// Where a program prints what it did: standard output, or standard error if one
+// The stream for a program's summary: standard output, or standard error if one
 // of its outputs goes to standard output, which is then this output alone.
 std::FILE* SummaryStream(const std::vector<std::string>& outputs);
 

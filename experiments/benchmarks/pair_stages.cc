@@ -82,7 +82,7 @@ void ForBoth(const PairInput& pair, const Body& body) {
   }
 }
 
-void AddFrontEnd(const Adder& add) {
+void AddVoxelsAndNeighbors(const Adder& add) {
   add("voxels/quatro", Needs::kClouds, [](const PairInput& pair, Counters* c) {
     std::string error;
     const double size = pair.options.front_end.voxel_size;
@@ -127,6 +127,9 @@ void AddFrontEnd(const Adder& add) {
                                          /*num_threads=*/1);
         });
       });
+}
+
+void AddFrontEnd(const Adder& add) {
   add("normals/quatro", Needs::kClouds, [](const PairInput& pair, Counters*) {
     ForBoth(pair, [&](const CloudInput& cloud) {
       return EstimateNormals(cloud.voxels,
@@ -414,6 +417,7 @@ void AddRegister(const Adder& add) {
 
 void AddPairStages(const PairSource& pair) {
   const Adder add(pair);
+  AddVoxelsAndNeighbors(add);
   AddFrontEnd(add);
   AddDescriptors(add);
   AddEstimation(add);

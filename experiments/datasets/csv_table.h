@@ -25,7 +25,7 @@ struct CsvTable {
   bool Has(const std::string& column) const;
 };
 
-// Nullopt with one line in *error, which names file and line, if a column comes
+// Returns nullopt, with file and line in *error, if a column comes
 // twice or a row has not as many cells as there are columns. Blank lines, and
 // blanks around names and cells, are passed over.
 std::optional<CsvTable> ReadCsvTable(const std::string& path,

@@ -95,7 +95,7 @@ bool IsKnownWrong(const Entry& entry) {
          (entry.target_from_source.translation - wrong).norm() < 0.01;
 }
 
-// Of the sequences that can be read, with poses enough to know the INS and the
+// The sequences that can be read, with poses enough to know the INS and the
 // files' names; the others are noted.
 class Sequences {
  public:

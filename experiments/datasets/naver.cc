@@ -87,7 +87,7 @@ std::optional<std::vector<double>> ParseNumbers(const Row& row,
 }
 
 std::optional<Rigid3> ParsePose(const Row& row, std::string* error) {
-  constexpr double kMaxDeviation = 1e-3;  // Of the quaternion's length from 1.
+  constexpr double kMaxDeviation = 1e-3;  // Deviation of its length from 1.
   const auto n = ParseNumbers(row, error);
   if (!n) return std::nullopt;
   const Eigen::Quaterniond q((*n)[0], (*n)[1], (*n)[2], (*n)[3]);

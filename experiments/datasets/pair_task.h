@@ -19,7 +19,7 @@ namespace quatro {
 struct PairIns {
   Attitude source;
   Attitude target;
-  double std = 0.0;  // Of roll and pitch, each [rad].
+  double std = 0.0;  // Each of roll and pitch [rad].
 };
 
 struct PairTask {
@@ -44,7 +44,7 @@ struct PairTask {
   // The true pose and the INS below are those of the rotated scan.
   double added_yaw = 0.0;
 
-  // Nullopt: the scans share no place, or nothing is known of the pose.
+  // Not set if the scans share no place or the pose is unknown.
   std::optional<Rigid3> true_target_from_source;
   bool is_truth_known = true;
 

@@ -62,7 +62,7 @@ std::string PathOf(const fs::path& folder, std::string cell) {
 }
 
 bool ReadPose(const CsvRow& row, PairTask* task, std::string* error) {
-  constexpr double kMaxDeviation = 1e-3;  // Of the quaternion's length from 1.
+  constexpr double kMaxDeviation = 1e-3;  // Deviation of its length from 1.
   double values[7];
   for (std::size_t i = 0; i < 7; ++i) {
     const auto value = ParseFiniteNumber(row.cells.at(kPose[i]));

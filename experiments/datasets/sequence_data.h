@@ -36,7 +36,7 @@ struct SequenceData {
   // differ from the world of the true poses. Empty, or available for some
   // frames.
   std::map<int, Attitude> ins;
-  double ins_std = 0.0;  // Of roll and pitch, each [rad].
+  double ins_std = 0.0;  // Each of roll and pitch [rad].
 
   int num_missing_scans = 0;  // Frames with a pose but no file.
   int num_missing_poses = 0;  // Frames with a file but no pose.

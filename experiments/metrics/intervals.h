@@ -13,6 +13,8 @@
 // (1 + confidence) / 2 quantile of the B statistics. It is too narrow for n
 // below about ten; for one value it has no width.
 //
+// The tables of quatro_experiment need these in C++; scripts use scipy.
+//
 // Sources: Wilson, "Probable Inference, the Law of Succession, and Statistical
 // Inference", JASA 1927. Efron and Tibshirani, "An Introduction to the
 // Bootstrap", 1993, section 13.3.

@@ -168,7 +168,7 @@ class CellReader {
     return true;
   }
 
-  // Of the next `n` cells, the first of which is not consumed.
+  // Reads the next `n` cells, the first of which is not consumed.
   bool AreEmpty(std::size_t n) const {
     const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(next_);
     return std::all_of(first,

@@ -37,16 +37,16 @@ struct PairResult {
   // unreadable if a scan is missing or broken.
   std::string status;
 
-  // Nullopt if there is no answer.
+  // Not set if there is no answer.
   std::optional<Rigid3> target_from_source;
 
-  // Of the true pose; nullopt if the scans share no place, or if it is unknown.
+  // True pose; not set if the scans share no place or it is unknown.
   bool is_truth_known = true;
   std::optional<double> distance;   // |t| [m]
   std::optional<double> true_yaw;   // [rad], -pi .. pi
   std::optional<double> true_tilt;  // [rad], the rotation without its yaw
 
-  // Nullopt without an answer or without a true pose.
+  // Not set without an answer or without a true pose.
   std::optional<PairError> error;
 
   std::optional<double>

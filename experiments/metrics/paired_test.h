@@ -17,6 +17,8 @@
 // Both tests are two-sided; p is 1 if the methods do not differ. p is not
 // adjusted for the number of comparisons.
 //
+// The tables of quatro_experiment need these in C++; scripts use scipy.
+//
 // Sources: McNemar, "Note on the Sampling Error of the Difference between
 // Correlated Proportions", Psychometrika 1947. Fisher, "The Design of
 // Experiments", 1935, section 21, for (2).

@@ -58,7 +58,7 @@ struct ErrorAverages {
   std::optional<double> translation_as_printed;  // (3) [m^2]
   std::optional<double> median_translation;      // [m]
   std::optional<double> median_rotation;         // [rad]
-  std::optional<Interval> translation_interval;  // Of t_avg (2).
+  std::optional<Interval> translation_interval;  // Interval of t_avg (2).
   std::optional<Interval> rotation_interval;
   std::optional<Interval> median_translation_interval;
   std::optional<Interval> median_rotation_interval;
@@ -67,12 +67,12 @@ struct ErrorAverages {
 struct RegistrationMetrics {
   long num_pairs = 0;       // All that were given.
   long num_unreadable = 0;  // In none of the numbers below.
-  long num_apart = 0;       // Of scans that share no place.
+  long num_apart = 0;       // Pairs that share no place.
   long num_unknown = 0;     // Whose true pose is not known.
   long num_posed = 0;       // With truth: what (1) is a share of.
 
-  long num_answers = 0;     // Of the posed.
-  long num_registered = 0;  // Of posed, apart and unknown.
+  long num_answers = 0;     // Posed pairs with an answer.
+  long num_registered = 0;  // Posed, apart or unknown pairs.
 
   // Registered, and beyond the first limit or of scans that share no place.
   // Nothing of the unknown.

@@ -32,7 +32,7 @@ using FrameAligner =
                                  const Rigid3& target_from_source_guess)>;
 
 // By a method on clouds. The pose counts whether or not it is registered, as in
-// the paper's table; the message holds the verdict. Local methods start from
+// the paper's table; the message contains the verdict. Local methods start from
 // the guess.
 FrameAligner MakeFrameAligner(PairSolver solver,
                               const RegistrationOptions& options);

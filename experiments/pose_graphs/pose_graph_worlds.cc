@@ -76,7 +76,7 @@ int PosesPerTurn(int num_poses) {
   return std::max(8, static_cast<int>(std::round(std::sqrt(num_poses))));
 }
 
-// From pole to pole, with x ahead and z outward.
+// A path from pole to pole, with x ahead and z outward.
 std::vector<Rigid3> WalkSphere(int num_poses) {
   const int per_turn = PosesPerTurn(num_poses);
   const double radius = kStep * per_turn / (2.0 * M_PI);

@@ -52,7 +52,7 @@ struct GraphWorld {
 std::optional<GraphWorld> MakeGraphWorld(const GraphWorldOptions& options,
                                          std::string* error);
 
-// The same graph without the outlier loops, with unchanged poses.
+// The graph without the outlier loops, with unchanged poses.
 PoseGraph WithoutWrongLoops(const GraphWorld& world);
 
 }  // namespace quatro

@@ -25,7 +25,7 @@ struct ScanPair {
   std::size_t from = 0;
   std::size_t to = 0;
   Verdict verdict;
-  std::optional<Rigid3> from_from_to;  // Nullopt if there is no pose.
+  std::optional<Rigid3> from_from_to;  // Not set if there is no pose.
 };
 
 // Registers all pairs with to > from + 1, in order. `progress` is called with

@@ -45,7 +45,7 @@ std::string NearestFlag(const std::string& name) {
   return nearest;
 }
 
-// What a value of gflags' type is.
+// The phrase for a value of gflags' type.
 std::string Describe(const std::string& type) {
   if (type == "bool") return "true or false";
   if (type == "double") return "a number";

@@ -12,8 +12,8 @@
 
 namespace quatro {
 
-// What is wrong with the first argument that is no flag of gflags or has a
-// value of another type; nullopt if there is none, or if --undefok is among
+// Describes the first argument that is no flag of gflags or has a value of
+// another type. Returns nullopt if there is none, or if --undefok is among
 // them. Sets the flags before it. `arguments` are without the program's name.
 std::optional<std::string> TellBadFlag(
     const std::vector<std::string>& arguments);

@@ -145,89 +145,78 @@ const char* SimdName() {
   return "baseline";
 }
 
-int Main(int argc, char** argv) {
-  using quatro::Fail;
-  std::vector<char*> ours = {argv[0]};
-  std::vector<char*> theirs = {argv[0]};
-  std::vector<std::string> their_args;
+// The arguments for us, and those for Google Benchmark.
+struct Arguments {
+  std::vector<char*> ours;
+  std::vector<char*> theirs;
+  std::vector<std::string> their_texts;
+};
+
+Arguments SplitArguments(int argc, char** argv) {
+  Arguments arguments{{argv[0]}, {argv[0]}, {}};
   for (int i = 1; i < argc; ++i) {
-    if (IsOfBenchmark(argv[i])) {
-      // Standard output has a flag of its own there.
-      static char on_standard_output[] = "--benchmark_format=json";
-      const bool is_dash =
-          std::string_view(argv[i]).ends_with("benchmark_out=-");
-      theirs.push_back(is_dash ? on_standard_output : argv[i]);
-      their_args.emplace_back(theirs.back());
-    } else {
-      ours.push_back(argv[i]);
+    if (!IsOfBenchmark(argv[i])) {
+      arguments.ours.push_back(argv[i]);
+      continue;
     }
+    // Standard output has a flag of its own there.
+    static char on_standard_output[] = "--benchmark_format=json";
+    const bool is_dash = std::string_view(argv[i]).ends_with("benchmark_out=-");
+    arguments.theirs.push_back(is_dash ? on_standard_output : argv[i]);
+    arguments.their_texts.emplace_back(arguments.theirs.back());
   }
-  int num_theirs = static_cast<int>(theirs.size());
-  const int num_ours = static_cast<int>(ours.size());
-  ours.push_back(nullptr);
-  theirs.push_back(nullptr);
-  if (const auto exit_code =
-          quatro::ParseFlags(kUsage, "benchmark_main", num_ours, ours.data())) {
-    return *exit_code;
-  }
+  return arguments;
+}
 
-  std::string error;
-  const auto sizes = ParseSizes(&error);
-  if (!sizes) return Fail(error);
-  if (!AreValid(their_args, &error)) return Fail(error);
-  auto options = quatro::FindPreset(FLAGS_preset, &error);
-  if (!options) return Fail(error);
-  options->num_threads = FLAGS_threads;
-  if (!options->IsValid(&error)) return Fail(error);
+// The clouds that are named. Both are nullopt if a pair is to be simulated.
+struct NamedClouds {
+  std::optional<quatro::PointCloud> source;
+  std::optional<quatro::PointCloud> target;
+};
+
+bool ReadNamedClouds(double voxel_size,
+                     NamedClouds* clouds,
+                     std::string* error) {
   if (FLAGS_source.empty() != FLAGS_target.empty()) {
-    return Fail((FLAGS_source.empty() ? "--source" : "--target") +
-                std::string(" is empty, but the other cloud is named; name "
-                            "both, or neither for a simulated pair"));
+    *error = (FLAGS_source.empty() ? "--source" : "--target") +
+             std::string(
+                 " is empty, but the other cloud is named; name "
+                 "both, or neither for a simulated pair");
+    return false;
   }
-  const std::string out = BenchmarkFlag(their_args, "out");
-  if (!out.empty() &&
-      !quatro::CanWriteAll(
-          {{"benchmark_out", out}}, {FLAGS_source, FLAGS_target}, &error)) {
-    return Fail(error);
-  }
-  std::optional<quatro::PointCloud> source, target;
-  if (!FLAGS_source.empty()) {
-    source = quatro::ReadCloud(FLAGS_source, &error);
-    if (!source) return Fail(error);
-    target = quatro::ReadCloud(FLAGS_target, &error);
-    if (!target) return Fail(error);
-    const double voxel_size = options->front_end.voxel_size;
-    if (!CanUse(FLAGS_source, *source, voxel_size, &error) ||
-        !CanUse(FLAGS_target, *target, voxel_size, &error)) {
-      return Fail(error);
-    }
-  }
+  if (FLAGS_source.empty()) return true;
+  clouds->source = quatro::ReadCloud(FLAGS_source, error);
+  if (!clouds->source) return false;
+  clouds->target = quatro::ReadCloud(FLAGS_target, error);
+  if (!clouds->target) return false;
+  return CanUse(FLAGS_source, *clouds->source, voxel_size, error) &&
+         CanUse(FLAGS_target, *clouds->target, voxel_size, error);
+}
 
-  benchmark::Initialize(&num_theirs, theirs.data());
-  if (num_theirs > 1) return Fail(std::string(theirs[1]) + ": not a flag");
-  std::unique_ptr<const quatro::PairInput> pair;
-  quatro::AddPairStages([&]() -> const quatro::PairInput& {
-    if (!pair) {
-      if (!source) {
-        // The default options are valid.
-        auto simulated = quatro::SimulateSetPair({}, 0, &error);
-        source = std::move(simulated->source);
-        target = std::move(simulated->target);
-      }
-      pair = std::make_unique<const quatro::PairInput>(
-          quatro::MakePairInput(*source, *target, *options));
-      std::fprintf(stderr,
-                   "%td and %td voxels, %td matches, %s: %s\n",
-                   pair->clouds[0].voxels.cols(),
-                   pair->clouds[1].voxels.cols(),
-                   pair->matched.matched_source.cols(),
-                   quatro::StatusName(pair->summary.verdict.status),
-                   pair->summary.verdict.reason.c_str());
-    }
-    return *pair;
-  });
-  quatro::AddSizeStages(*sizes, FLAGS_threads);
+// The clouds and the results of all stages, of a simulated pair if no clouds
+// are named.
+std::unique_ptr<const quatro::PairInput> MakePair(
+    NamedClouds clouds, const quatro::RegistrationOptions& options) {
+  if (!clouds.source) {
+    // The default options are valid.
+    std::string ignored;
+    auto simulated = quatro::SimulateSetPair({}, 0, &ignored);
+    clouds.source = std::move(simulated->source);
+    clouds.target = std::move(simulated->target);
+  }
+  auto pair = std::make_unique<const quatro::PairInput>(
+      quatro::MakePairInput(*clouds.source, *clouds.target, options));
+  std::fprintf(stderr,
+               "%td and %td voxels, %td matches, %s: %s\n",
+               pair->clouds[0].voxels.cols(),
+               pair->clouds[1].voxels.cols(),
+               pair->matched.matched_source.cols(),
+               quatro::StatusName(pair->summary.verdict.status),
+               pair->summary.verdict.reason.c_str());
+  return pair;
+}
 
+void AddContext() {
   const quatro::BuildInfo build = quatro::GetBuildInfo();
   benchmark::AddCustomContext("version", build.version + " " + build.commit);
   benchmark::AddCustomContext("compiler", build.compiler);
@@ -239,6 +228,49 @@ int Main(int argc, char** argv) {
                               FLAGS_source.empty()
                                   ? "simulated"
                                   : FLAGS_source + " -> " + FLAGS_target);
+}
+
+int Main(int argc, char** argv) {
+  using quatro::Fail;
+  Arguments arguments = SplitArguments(argc, argv);
+  int num_theirs = static_cast<int>(arguments.theirs.size());
+  const int num_ours = static_cast<int>(arguments.ours.size());
+  arguments.ours.push_back(nullptr);
+  arguments.theirs.push_back(nullptr);
+  if (const auto exit_code =
+          quatro::ParseFlags(kUsage, num_ours, arguments.ours.data())) {
+    return *exit_code;
+  }
+
+  std::string error;
+  const auto sizes = ParseSizes(&error);
+  if (!sizes || !AreValid(arguments.their_texts, &error)) return Fail(error);
+  auto options = quatro::FindPreset(FLAGS_preset, &error);
+  if (!options) return Fail(error);
+  options->num_threads = FLAGS_threads;
+  if (!options->IsValid(&error)) return Fail(error);
+  const std::string out = BenchmarkFlag(arguments.their_texts, "out");
+  if (!out.empty() &&
+      !quatro::CanWriteAll(
+          {{"benchmark_out", out}}, {FLAGS_source, FLAGS_target}, &error)) {
+    return Fail(error);
+  }
+  NamedClouds clouds;
+  if (!ReadNamedClouds(options->front_end.voxel_size, &clouds, &error)) {
+    return Fail(error);
+  }
+
+  benchmark::Initialize(&num_theirs, arguments.theirs.data());
+  if (num_theirs > 1) {
+    return Fail(std::string(arguments.theirs[1]) + ": not a flag");
+  }
+  std::unique_ptr<const quatro::PairInput> pair;
+  quatro::AddPairStages([&]() -> const quatro::PairInput& {
+    if (!pair) pair = MakePair(std::move(clouds), *options);
+    return *pair;
+  });
+  quatro::AddSizeStages(*sizes, FLAGS_threads);
+  AddContext();
   const std::size_t num_run = benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   // Google Benchmark has printed the reason: the filter matches nothing or is

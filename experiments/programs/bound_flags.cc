@@ -134,18 +134,4 @@ std::optional<PoseBounds> ParseBoundFlags(const BoundFlags& flags,
   return bounds;
 }
 
-Json DescribeOptions(const PoseBounds& bounds) {
-  Json rows = Json::array();
-  const Eigen::Matrix4d matrix = bounds.guess.ToMatrix();
-  for (int i = 0; i < 4; ++i) {
-    rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2), matrix(i, 3)});
-  }
-  return {{"guess", rows},
-          {"max_translation",
-           std::isfinite(bounds.max_translation) ? Json(bounds.max_translation)
-                                                 : Json(nullptr)},
-          {"max_yaw_deg", bounds.max_yaw / kDegree},
-          {"max_tilt_deg", bounds.max_tilt / kDegree}};
-}
-
 }  // namespace quatro

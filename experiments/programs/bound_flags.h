@@ -8,12 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "experiments/programs/json_report.h"
 #include "robust/estimators/pose_bounds.h"
 
 namespace quatro {
 
-// As given: --guess, --max_translation, --max_yaw_deg and --max_tilt_deg.
+// The flags --guess, --max_translation, --max_yaw_deg and --max_tilt_deg.
 struct BoundFlags {
   // target_from_source: a text file, or the numbers themselves. 12 or 16 of
   // them are rows of a matrix; 4 are x,y,z,yaw_deg.
@@ -23,14 +22,11 @@ struct BoundFlags {
   double max_tilt_deg = 5.0;
 };
 
-// Nullopt, with *error set to what is wrong with which flag. A guess without
-// bounds is refused unless the method starts from it (`is_local`).
+// Returns nullopt, with *error set to the invalid flag and the reason. A guess
+// without bounds is refused unless the method starts from it (`is_local`).
 std::optional<PoseBounds> ParseBoundFlags(const BoundFlags& flags,
                                           bool is_local,
                                           std::string* error);
-
-// guess (4 rows of 4), max_translation (null: any), max_yaw_deg, max_tilt_deg.
-Json DescribeOptions(const PoseBounds& bounds);
 
 }  // namespace quatro
 

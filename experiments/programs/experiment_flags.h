@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "experiments/datasets/sequence_data.h"
-#include "experiments/programs/own_method.h"
 #include "experiments/protocols/protocols.h"
 #include "experiments/runner/manifest.h"
+#include "experiments/runner/own_method.h"
 #include "experiments/runner/run_task.h"
 #include "robust/registration/registration.h"
 

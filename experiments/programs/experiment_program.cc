@@ -275,8 +275,7 @@ bool IsOfPairs() {
 }
 
 int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
-  if (const auto exit_code =
-          quatro::ParseFlags(kUsage, "experiment_flags", argc, argv)) {
+  if (const auto exit_code = quatro::ParseFlags(kUsage, argc, argv)) {
     return *exit_code;
   }
   if (FLAGS_list_methods) {

@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "experiments/programs/own_method.h"
+#include "experiments/runner/own_method.h"
 
 namespace quatro {
 

@@ -250,82 +250,102 @@ std::string ExplainEvidence(const Json& report) {
   return text;
 }
 
-// Recommends changes, depending on what failed.
-std::vector<std::string> Advice(const Json& report) {
-  std::vector<std::string> advice;
-  if (report["status"] == "registered") return advice;
+// Advice if the front end found few matches.
+void AdviseOnMatches(const Json& report, std::vector<std::string>* advice) {
   const Json counts = At(report, {"counts"});
   const double num_matches = NumberOr(At(counts, {"matches"}), 0.0);
   const double num_mutual = NumberOr(At(counts, {"mutual_matches"}), 0.0);
   const bool has_clouds = counts.contains("mutual_matches");
   if (has_clouds && num_matches < kFewMatches) {
-    advice.emplace_back(
+    advice->emplace_back(
         "there are few matches: try larger radii (--fpfh_radius of at least "
         "five voxels, --normal_radius of at least three), smaller voxels "
         "(--voxel_size), or --preset=auto, which adapts to the density of the "
         "scans");
     if (num_mutual > 0.0 && num_mutual >= 10.0 * num_matches) {
-      advice.emplace_back(
+      advice->emplace_back(
           "the tuple test kept less than a tenth of the matches: the "
           "descriptors are not distinctive here, or the overlap is small");
     }
   }
+}
+
+// Advice for a status without a pose.
+void AdviseOnStatus(const Json& report, std::vector<std::string>* advice) {
   if (!HasMatches(report)) {
     if (report["status"] == "insufficient") {
-      advice.emplace_back(
+      advice->emplace_back(
           "too few points of one scan are near the other: use a method with "
           "matches first, and this one as its --refine");
     } else if (report["status"] == "degenerate") {
-      advice.emplace_back(
+      advice->emplace_back(
           "the surfaces do not constrain the pose: use scans of more than one "
           "wall, a smaller --voxel_size, or odometry for the unconstrained "
           "directions");
     }
   } else if (report["status"] == "insufficient") {
-    advice.emplace_back(
+    advice->emplace_back(
         "too few matches are consistent with each other: try a larger "
         "--noise_bound, or matches with fewer outliers");
   } else if (report["status"] == "degenerate") {
-    advice.emplace_back(
+    advice->emplace_back(
         "the consistent matches do not constrain the pose because they are at "
         "one point or on one line: try larger radii or scans with more "
         "overlap");
   }
+}
+
+// Advice if chance or another pose explains the consensus.
+void AdviseOnConsensus(const Json& report, std::vector<std::string>* advice) {
   const Json evidence = At(report, {"evidence"});
   const Json alarms = At(evidence, {"false_alarms"});
   const bool is_accidental =
       !alarms.empty() &&
       alarms.back()["log10_false_alarms"].get<double>() > -3.0;
   if (is_accidental) {
-    advice.emplace_back(
+    advice->emplace_back(
         "no consensus stands out from chance: the scans do not overlap, or the "
         "matches are too poor; try scans closer to each other, or other radii");
   } else if (NumberOr(At(evidence, {"rival", "margin"}), 9.0) < 2.0) {
-    advice.emplace_back(
+    advice->emplace_back(
         "another pose has nearly as many inliers: the place is symmetric or "
         "repetitive, or the matches are close together; a rough guess of the "
         "pose can decide (evidence.rival has the other pose)");
   }
-  const Json geometry = At(evidence, {"geometry"});
+}
+
+// Advice if the geometry of the scans contradicts the pose.
+void AdviseOnGeometry(const Json& report, std::vector<std::string>* advice) {
+  const Json geometry = At(report, {"evidence", "geometry"});
   if (geometry.is_object()) {
     if (NumberOr(geometry["structure_overlap"], 1.0) < 0.3) {
-      advice.emplace_back(
+      advice->emplace_back(
           "little of the structure overlaps: the scans show different places, "
           "or the overlap is too small to measure; use scans closer to each "
           "other");
     } else if (NumberOr(geometry["coarse_overlap"], 1.0) -
                    NumberOr(geometry["rival_overlap"], 0.0) <
                0.1) {
-      advice.emplace_back(
+      advice->emplace_back(
           "the scans fit as well at another pose: in a corridor or a symmetric "
           "place geometry cannot decide; use odometry");
     }
     if (NumberOr(geometry["contradicted_share"], 0.0) > 0.3) {
-      advice.emplace_back(
+      advice->emplace_back(
           "surfaces are in free space of the other scan: the pose is "
           "incorrect, or most of the scene moved between the scans");
     }
   }
+}
+
+// Recommends changes, depending on what failed.
+std::vector<std::string> Advice(const Json& report) {
+  std::vector<std::string> advice;
+  if (report["status"] == "registered") return advice;
+  AdviseOnMatches(report, &advice);
+  AdviseOnStatus(report, &advice);
+  AdviseOnConsensus(report, &advice);
+  AdviseOnGeometry(report, &advice);
   const Json ins_mode = At(report, {"parameters", "ins_mode"});
   if (ins_mode == "none" && At(report, {"notes", "polish"}).is_string() &&
       At(report, {"unpolished_target_from_source"}).is_null() &&

@@ -56,8 +56,7 @@ std::vector<PointOnLine> DrawPoints() {
 }
 
 int Main(int argc, char** argv) {
-  if (const auto exit_code =
-          quatro::ParseFlags(kUsage, "fit_line_main", argc, argv)) {
+  if (const auto exit_code = quatro::ParseFlags(kUsage, argc, argv)) {
     return *exit_code;
   }
   if (FLAGS_points < 2 || FLAGS_points > 1000000) {

@@ -60,12 +60,6 @@ bool ParseAttitude(const std::string& flag,
   return true;
 }
 
-Json InDegrees(const Attitude& attitude) {
-  return {attitude.roll / kDegree,
-          attitude.pitch / kDegree,
-          attitude.yaw / kDegree};
-}
-
 }  // namespace
 
 const char* InsModeName(InsMode mode) {
@@ -117,14 +111,6 @@ std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
   }
   ins.up = *up / length;
   return ins;
-}
-
-Json DescribeOptions(const InsOptions& ins) {
-  return {{"ins_mode", InsModeName(ins.mode)},
-          {"source_rpy_deg", InDegrees(ins.source_attitude)},
-          {"target_rpy_deg", InDegrees(ins.target_attitude)},
-          {"ins_std_deg", ins.attitude_std / kDegree},
-          {"gravity", {ins.up.x(), ins.up.y(), ins.up.z()}}};
 }
 
 }  // namespace quatro

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "experiments/programs/json_report.h"
 #include "robust/registration/ins.h"
 
 namespace quatro {
@@ -30,8 +29,6 @@ const char* InsModeName(InsMode mode);
 // attitudes must be given if the mode needs them, and neither if it does not.
 std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
                                         std::string* error);
-
-Json DescribeOptions(const InsOptions& ins);
 
 }  // namespace quatro
 

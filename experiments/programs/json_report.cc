@@ -13,74 +13,6 @@
 namespace quatro {
 namespace {
 
-const char* Name(ConsistencyTest test) {
-  switch (test) {
-    case ConsistencyTest::kLength:
-      return "length";
-    case ConsistencyTest::kPlanar:
-      return "planar";
-    case ConsistencyTest::kPlanarAndHeight:
-      break;
-  }
-  return "planar_and_height";
-}
-
-const char* Name(Pruning pruning) {
-  switch (pruning) {
-    case Pruning::kCliqueHeuristic:
-      return "clique_heuristic";
-    case Pruning::kExactClique:
-      return "exact_clique";
-    case Pruning::kMaxCore:
-      return "max_core";
-    case Pruning::kNone:
-      break;
-  }
-  return "none";
-}
-
-const char* Name(TimLayout layout) {
-  switch (layout) {
-    case TimLayout::kRing:
-      return "ring";
-    case TimLayout::kComplete:
-      return "complete";
-    case TimLayout::kRandom:
-      break;
-  }
-  return "random";
-}
-
-const char* Name(SurrogateType surrogate) {
-  switch (surrogate) {
-    case SurrogateType::kGemanMcClure:
-      return "geman_mcclure";
-    case SurrogateType::kWelsch:
-      return "welsch";
-    case SurrogateType::kTruncatedLeastSquares:
-      break;
-  }
-  return "truncated_least_squares";
-}
-
-const char* Name(GncStart start) {
-  return start == GncStart::kIdentity ? "identity" : "plain_fit";
-}
-
-const char* Name(YawSolver solver) {
-  return solver == YawSolver::kExact ? "exact" : "gnc";
-}
-
-Json Rows(const Rigid3& motion) {
-  const Eigen::Matrix4d matrix = motion.ToMatrix();
-  Json rows = Json::array();
-  for (int row = 0; row < 4; ++row) {
-    rows.push_back(
-        {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
-  }
-  return rows;
-}
-
 Json Rows(const Matrix6& matrix) {
   Json rows = Json::array();
   for (const auto row : matrix.rowwise()) {
@@ -204,6 +136,16 @@ double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
 
 }  // namespace
 
+Json Rows(const Rigid3& motion) {
+  const Eigen::Matrix4d matrix = motion.ToMatrix();
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    rows.push_back(
+        {matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
+  }
+  return rows;
+}
+
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
                 const PoseSummary& solution,
@@ -295,35 +237,6 @@ Json DescribeCandidates(const std::vector<PoseCandidate>& candidates) {
          {"target_from_source", Rows(candidate.target_from_source)}});
   }
   return list;
-}
-
-Json DescribeOptions(const QuatroOptions& options) {
-  return {{"noise_bound", options.noise_bound},
-          {"tim_bound_factor", options.tim_bound_factor},
-          {"consistency_test", Name(options.consistency_test)},
-          {"pruning", Name(options.pruning)},
-          {"tim_layout", Name(options.tim_layout)},
-          {"yaw_solver", Name(options.yaw_solver)},
-          {"surrogate", Name(options.surrogate)},
-          {"gnc_start", Name(options.gnc.start)},
-          {"gnc_mu_step", options.gnc.mu_step},
-          {"gnc_max_num_iterations", options.gnc.max_num_iterations},
-          {"replace_missed_optimum", options.replace_missed_optimum},
-          {"recover_translation", options.recover_translation},
-          {"polish", options.polish},
-          {"seed", options.seed}};
-}
-
-Json DescribeOptions(const FrontEndOptions& options) {
-  return {{"voxel_size", options.voxel_size},
-          {"normal_radius", options.normal_radius},
-          {"fpfh_radius", options.fpfh_radius},
-          {"tuple_test", options.tuple_test},
-          {"tuple_scale", options.tuple.scale}};
-}
-
-std::string JsonPath(const std::string& json_flag, bool explain_flag) {
-  return json_flag.empty() && !explain_flag ? "-" : json_flag;
 }
 
 std::string Version() { return QUATRO_VERSION; }

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "features/base/rigid3.h"
 #include "features/base/stopwatch.h"
 #include "robust/estimators/pose_summary.h"
-#include "robust/estimators/quatro.h"
 #include "robust/registration/pose_search.h"
 #include "robust/registration/refinement.h"
 #include "robust/registration/registration.h"
@@ -23,6 +23,9 @@
 namespace quatro {
 
 using Json = nlohmann::ordered_json;
+
+// The 4 rows of 4 of a pose.
+Json Rows(const Rigid3& pose);
 
 // The fields that both programs report: status and reason (of the verdict),
 // message (of the estimator), target_from_source (4 rows of 4, or null),
@@ -45,14 +48,6 @@ Json DescribeRefinement(const std::optional<RefinementSummary>& refinement);
 // The poses that a search found, the best of each rung first: origin, score,
 // overlap, contradicted_share, log_likelihood_ratio and target_from_source.
 Json DescribeCandidates(const std::vector<PoseCandidate>& candidates);
-
-// The parameters that were used.
-Json DescribeOptions(const QuatroOptions& options);
-Json DescribeOptions(const FrontEndOptions& options);
-
-// Where it goes by --json and --explain, which takes its place on standard
-// output: a file, "-" or, empty, nowhere.
-std::string JsonPath(const std::string& json_flag, bool explain_flag);
 
 // The library's version.
 std::string Version();

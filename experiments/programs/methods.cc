@@ -39,7 +39,7 @@ bool IsKnown(const std::string& name) {
          HasName(kOdometries, name);
 }
 
-// What makes a solver of matched points: an own method or a peer.
+// The maker of a solver of matched points: an own method or a peer.
 using MakeSolver = std::function<PoseSolver(const QuatroOptions& options)>;
 
 MakeSolver FindMaker(const std::string& name,

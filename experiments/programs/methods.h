@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/programs/own_method.h"
+#include "experiments/runner/own_method.h"
 #include "features/io/point_cloud.h"
 #include "robust/registration/methods.h"
 #include "robust/registration/registration.h"
@@ -51,7 +51,7 @@ PairSolver FindPairSolver(const std::string& name,
 using MatchSolver = std::function<RegistrationSummary(
     const Matches& matches, const RegistrationOptions& options)>;
 
-// The same; a method that needs clouds is an error, too.
+// Like FindPairSolver(); a method that needs clouds is an error, too.
 MatchSolver FindMatchSolver(const std::string& name,
                             const std::vector<OwnMethod>& own,
                             std::string* error);

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -115,10 +116,149 @@ void PrintDrift(std::FILE* out, const quatro::KittiDrift& drift) {
   }
 }
 
+quatro::SequenceOptions SequenceFromFlags() {
+  quatro::SequenceOptions options;
+  options.interval = FLAGS_interval;
+  options.first_frame = FLAGS_first_frame;
+  options.last_frame = FLAGS_last_frame;
+  options.reading.point_floats = FLAGS_point_floats;
+  return options;
+}
+
+// All inputs. They are read before a run that may take hours.
+struct Inputs {
+  std::unique_ptr<quatro::Odometry> odometry;
+  quatro::SequenceOptions options;
+  std::map<int, std::string> scans;  // By frame.
+  std::optional<quatro::Rigid3> cam0_from_lidar;
+  std::optional<std::vector<quatro::Rigid3>> truth;
+  std::vector<quatro::OutsideResult> outside;
+  std::vector<quatro::DriftEntry> outside_entries;
+  std::vector<std::string> paths;  // All files that are read.
+};
+
+// Reads the calibration and the true poses, if there are any.
+bool ReadPoseFiles(const std::string& calib,
+                   const std::string& truth_path,
+                   Inputs* inputs,
+                   std::string* error) {
+  if (!calib.empty()) {
+    inputs->cam0_from_lidar = quatro::ReadKittiCalibration(calib, error);
+    if (!inputs->cam0_from_lidar) return false;
+  }
+  if (!truth_path.empty()) {
+    inputs->truth = quatro::ReadKittiPoses(truth_path, error);
+    if (!inputs->truth) return false;
+  }
+  if (inputs->truth ||
+      (inputs->outside.empty() && !FLAGS_quoted && FLAGS_table.empty())) {
+    return true;
+  }
+  *error =
+      "--outside, --quoted and --table need true poses: name a poses.txt by "
+      "--truth, because " +
+      FLAGS_input + " has none";
+  return false;
+}
+
+// Computes the drift of the poses that --outside names.
+bool MeasureOutside(const std::string& truth_path,
+                    Inputs* inputs,
+                    std::string* error) {
+  const auto frames = quatro::FramesOf(inputs->scans, inputs->options, error);
+  if (!frames) return false;
+  if (!inputs->truth) return true;
+  if (!quatro::SelectFrames(*inputs->truth, *frames, error)) {
+    *error = truth_path + ": " + *error;
+    return false;
+  }
+  for (const quatro::OutsideResult& result : inputs->outside) {
+    const auto entry = quatro::DriftOfPoseFile(result.method,
+                                               FLAGS_interval,
+                                               result.path,
+                                               *inputs->truth,
+                                               *frames,
+                                               error);
+    if (!entry) return false;
+    inputs->outside_entries.push_back(*entry);
+  }
+  return true;
+}
+
+std::optional<Inputs> ReadInputs(std::string* error) {
+  if (FLAGS_input.empty()) {
+    *error = "--input is empty, must name a folder";
+    return std::nullopt;
+  }
+  if (FLAGS_threads < 0) {
+    *error =
+        quatro::FlagProblem("threads", FLAGS_threads, ">= 0; 0: one per core");
+    return std::nullopt;
+  }
+  auto registration = quatro::FindPreset(FLAGS_preset, error);
+  if (!registration) return std::nullopt;
+  registration->num_threads = FLAGS_threads;
+  Inputs inputs;
+  inputs.odometry = quatro::MakeOdometry(FLAGS_method, *registration, error);
+  if (!inputs.odometry) return std::nullopt;
+  inputs.options = SequenceFromFlags();
+  if (!inputs.options.IsValid(error)) return std::nullopt;
+  const auto outside = quatro::ParseOutside(FLAGS_outside, error);
+  if (!outside) return std::nullopt;
+  inputs.outside = *outside;
+  const auto scans = quatro::ListScans(FLAGS_input, error);
+  if (!scans) return std::nullopt;
+  inputs.scans = *scans;
+  const std::string calib =
+      FileOrDefault(FLAGS_calib, FLAGS_input, "calib.txt");
+  const std::string truth =
+      FileOrDefault(FLAGS_truth, FLAGS_input, "poses.txt");
+  if (!ReadPoseFiles(calib, truth, &inputs, error) ||
+      !MeasureOutside(truth, &inputs, error)) {
+    return std::nullopt;
+  }
+  inputs.paths = {calib, truth};
+  for (const auto& [frame, path] : inputs.scans) inputs.paths.push_back(path);
+  for (const auto& result : inputs.outside) {
+    inputs.paths.push_back(result.path);
+  }
+  return inputs;
+}
+
+// Prints the drift, and the table if there are rows of others. Returns nullopt
+// and sets *error if there is no drift to compute.
+std::optional<quatro::Table> PrintTable(
+    std::FILE* out,
+    const Inputs& inputs,
+    const quatro::OdometryRun& run,
+    const std::vector<quatro::Rigid3>& poses,
+    std::string* error) {
+  const auto drift = quatro::ComputeKittiDrift(
+      *quatro::SelectFrames(*inputs.truth, run.frames, error),
+      poses,
+      {},
+      error);
+  if (!drift) return std::nullopt;
+  PrintDrift(out, *drift);
+  std::vector<quatro::DriftEntry> entries = {
+      quatro::MeasuredEntry(FLAGS_method, FLAGS_interval, run, *drift)};
+  entries.insert(entries.end(),
+                 inputs.outside_entries.begin(),
+                 inputs.outside_entries.end());
+  if (FLAGS_quoted) {
+    const auto quoted = quatro::QuotedTableTwo();
+    entries.insert(entries.end(), quoted.begin(), quoted.end());
+  }
+  quatro::Table table = quatro::MakeTableTwo(entries);
+  if (FLAGS_quoted || !inputs.outside.empty()) {
+    std::fputs(quatro::FormatTable(table).c_str(), out);
+  }
+  return table;
+}
+
 int Main(int argc, char** argv) {
   using quatro::Fail;
-  if (const auto exit_code =
-          quatro::ParseFlags(kUsage, "odometry_main", argc, argv)) {
+  if (const auto exit_code = quatro::ParseFlags(kUsage, argc, argv)) {
     return *exit_code;
   }
   if (FLAGS_list_methods) {
@@ -126,102 +266,36 @@ int Main(int argc, char** argv) {
     return quatro::kExitDone;
   }
   std::string error;
-  if (FLAGS_input.empty()) return Fail("--input is empty, must name a folder");
-  if (FLAGS_threads < 0) {
-    return Fail(
-        quatro::FlagProblem("threads", FLAGS_threads, ">= 0; 0: one per core"));
-  }
-  auto registration = quatro::FindPreset(FLAGS_preset, &error);
-  if (!registration) return Fail(error);
-  registration->num_threads = FLAGS_threads;
-  const auto odometry =
-      quatro::MakeOdometry(FLAGS_method, *registration, &error);
-  if (!odometry) return Fail(error);
-  quatro::SequenceOptions options;
-  options.interval = FLAGS_interval;
-  options.first_frame = FLAGS_first_frame;
-  options.last_frame = FLAGS_last_frame;
-  options.reading.point_floats = FLAGS_point_floats;
-  if (!options.IsValid(&error)) return Fail(error);
-  const auto outside = quatro::ParseOutside(FLAGS_outside, &error);
-  if (!outside) return Fail(error);
-
-  // Reads all inputs before a run that may take hours.
-  const auto scans = quatro::ListScans(FLAGS_input, &error);
-  if (!scans) return Fail(error);
-  const std::string calib =
-      FileOrDefault(FLAGS_calib, FLAGS_input, "calib.txt");
-  std::optional<quatro::Rigid3> cam0_from_lidar;
-  if (!calib.empty()) {
-    cam0_from_lidar = quatro::ReadKittiCalibration(calib, &error);
-    if (!cam0_from_lidar) return Fail(error);
-  }
-  const std::string truth_path =
-      FileOrDefault(FLAGS_truth, FLAGS_input, "poses.txt");
-  std::optional<std::vector<quatro::Rigid3>> truth;
-  if (!truth_path.empty()) {
-    truth = quatro::ReadKittiPoses(truth_path, &error);
-    if (!truth) return Fail(error);
-  }
-  if (!truth && (!outside->empty() || FLAGS_quoted || !FLAGS_table.empty())) {
-    return Fail(
-        "--outside, --quoted and --table need true poses: name a poses.txt by "
-        "--truth, because " +
-        FLAGS_input + " has none");
-  }
-  const auto frames = quatro::FramesOf(*scans, options, &error);
-  if (!frames) return Fail(error);
-  std::vector<quatro::DriftEntry> entries;
-  if (truth) {
-    if (!quatro::SelectFrames(*truth, *frames, &error)) {
-      return Fail(truth_path + ": " + error);
-    }
-    for (const quatro::OutsideResult& result : *outside) {
-      const auto entry = quatro::DriftOfPoseFile(
-          result.method, FLAGS_interval, result.path, *truth, *frames, &error);
-      if (!entry) return Fail(error);
-      entries.push_back(*entry);
-    }
-  }
-  std::vector<std::string> inputs = {calib, truth_path};
-  for (const auto& [frame, path] : *scans) inputs.push_back(path);
-  for (const auto& result : *outside) inputs.push_back(result.path);
-  if (!quatro::CanWriteAll(
-          {{"output", FLAGS_output}, {"table", FLAGS_table}}, inputs, &error)) {
+  const auto inputs = ReadInputs(&error);
+  if (!inputs ||
+      !quatro::CanWriteAll({{"output", FLAGS_output}, {"table", FLAGS_table}},
+                           inputs->paths,
+                           &error)) {
     return Fail(error);
   }
 
-  const auto run = quatro::RunOdometry(
-      *scans, options, odometry.get(), quatro::ProgressLine("scans"), &error);
+  const auto run = quatro::RunOdometry(inputs->scans,
+                                       inputs->options,
+                                       inputs->odometry.get(),
+                                       quatro::ProgressLine("scans"),
+                                       &error);
   if (!run) return Fail(error);
   TellLostScans(*run);
   std::FILE* const out = quatro::SummaryStream({FLAGS_output, FLAGS_table});
   PrintSummary(out, *run);
   const std::vector<quatro::Rigid3> poses =
-      cam0_from_lidar ? quatro::MoveToCam0(run->Poses(), *cam0_from_lidar)
-                      : run->Poses();
+      inputs->cam0_from_lidar
+          ? quatro::MoveToCam0(run->Poses(), *inputs->cam0_from_lidar)
+          : run->Poses();
   std::vector<quatro::OutputFile> files;
   if (!FLAGS_output.empty()) {
     files.push_back({FLAGS_output, quatro::FormatKittiPoses(poses)});
   }
-  if (truth) {
-    const auto drift = quatro::ComputeKittiDrift(
-        *quatro::SelectFrames(*truth, run->frames, &error), poses, {}, &error);
-    if (!drift) return Fail(error);
-    PrintDrift(out, *drift);
-    entries.insert(
-        entries.begin(),
-        quatro::MeasuredEntry(FLAGS_method, FLAGS_interval, *run, *drift));
-    if (FLAGS_quoted) {
-      const auto quoted = quatro::QuotedTableTwo();
-      entries.insert(entries.end(), quoted.begin(), quoted.end());
-    }
-    const quatro::Table table = quatro::MakeTableTwo(entries);
-    if (FLAGS_quoted || !outside->empty()) {
-      std::fputs(quatro::FormatTable(table).c_str(), out);
-    }
+  if (inputs->truth) {
+    const auto table = PrintTable(out, *inputs, *run, poses, &error);
+    if (!table) return Fail(error);
     if (!FLAGS_table.empty()) {
-      files.push_back({FLAGS_table, quatro::FormatCsv(table)});
+      files.push_back({FLAGS_table, quatro::FormatCsv(*table)});
     }
   }
   if (!quatro::WriteOutputs(files, &error)) return Fail(error);

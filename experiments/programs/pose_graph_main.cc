@@ -190,8 +190,7 @@ void PrintTruth(std::FILE* out,
 }
 
 int Main(int argc, char** argv) {
-  if (const auto exit_code =
-          quatro::ParseFlags(kUsage, "pose_graph_main", argc, argv)) {
+  if (const auto exit_code = quatro::ParseFlags(kUsage, argc, argv)) {
     return *exit_code;
   }
   std::string error;

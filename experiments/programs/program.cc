@@ -43,7 +43,7 @@ bool IsForMemory(const std::system_error& error) {
          error.code() == std::errc::not_enough_memory;
 }
 
-// Of the exception that is being handled.
+// Prints the message of the exception that is being handled.
 void TellException() {
   try {
     throw;
@@ -86,10 +86,7 @@ int RunProgram(const std::function<int(int argc, char** argv)>& run,
   return kExitStopped;
 }
 
-std::optional<int> ParseFlags(const std::string& usage,
-                              const std::string& main_file,
-                              int argc,
-                              char** argv) {
+std::optional<int> ParseFlags(const std::string& usage, int argc, char** argv) {
   gflags::SetUsageMessage(usage + " Exits with 3 if memory runs out.");
   GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::exit(kExitBadInput); };
   // For the program's name in what Fail() prints.
@@ -104,7 +101,7 @@ std::optional<int> ParseFlags(const std::string& usage,
     return kExitDone;
   }
   if (FLAGS_help || FLAGS_helpshort) {
-    gflags::ShowUsageWithFlagsRestrict(argv[0], main_file.c_str());
+    gflags::ShowUsageWithFlagsRestrict(argv[0], "/programs/");
     return kExitDone;
   }
   if (argc > 1)

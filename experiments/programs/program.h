@@ -27,12 +27,9 @@ int RunProgram(const std::function<int(int argc, char** argv)>& run,
                char** argv);
 
 // Parses the flags. Returns an exit code if the program should end: after
-// --help or --version, or for an unknown flag or argument. `main_file` is the
-// name of the program's source without extension; --help shows only its flags.
-std::optional<int> ParseFlags(const std::string& usage,
-                              const std::string& main_file,
-                              int argc,
-                              char** argv);
+// --help or --version, or for an unknown flag or argument. --help shows only
+// the flags that sources in experiments/programs/ define.
+std::optional<int> ParseFlags(const std::string& usage, int argc, char** argv);
 
 // Prints "<program>: <error>" on stderr and returns kExitBadInput.
 int Fail(const std::string& error);

@@ -18,14 +18,15 @@ void EndProgressLine();
 
 class ProgressLine {
  public:
-  // Where it is printed. The clock tells seconds from any start.
+  // The stream to print to, and a clock in seconds with any start.
   struct Output {
     std::FILE* file;
     bool is_terminal;
     std::function<double()> clock;
   };
 
-  // `things` is what is counted, e.g. "scans"; `label` is printed in front.
+  // `things` names the counted things, for example "scans"; `label` is printed
+  // in front.
   explicit ProgressLine(std::string things, std::string label = "");
   ProgressLine(std::string things, std::string label, Output output);
 

@@ -3,11 +3,73 @@
 
 #include "experiments/programs/registration_flags.h"
 
+#include <gflags/gflags.h>
 #include <algorithm>
+#include <cstdio>
 #include <string_view>
 
+#include "experiments/programs/bound_flags.h"
+#include "experiments/programs/explain.h"
+#include "experiments/programs/ins_flags.h"
 #include "experiments/programs/methods.h"
+#include "experiments/programs/program.h"
 #include "robust/registration/methods.h"
+
+DEFINE_bool(list_methods, false, "List the methods and exit");
+DEFINE_string(options,
+              "",
+              "Further options of the method, name=value;name=value; see "
+              "--list_options");
+DEFINE_bool(list_options, false, "List the options of --method and exit");
+DEFINE_string(recover,
+              "",
+              "Re-estimate the translation: on or off; empty: the "
+              "preset's");
+DEFINE_string(polish,
+              "",
+              "Polish roll and pitch: on or off; empty: the preset's");
+DEFINE_string(ins_mode,
+              "none",
+              "Roll and pitch from an INS: none, relative, leveled or fused");
+DEFINE_string(source_rpy_deg,
+              "",
+              "The INS' roll,pitch,yaw of the source [deg]; x ahead, z up");
+DEFINE_string(target_rpy_deg,
+              "",
+              "The INS' roll,pitch,yaw of the target [deg]");
+DEFINE_double(ins_std_deg,
+              0.5,
+              "Standard deviation of each roll and pitch [deg], for fused");
+DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
+DEFINE_string(guess,
+              "",
+              "A prior on target_from_source: x,y,z,yaw_deg, or a text file of "
+              "4, 12 or 16 numbers (the rows of a matrix); empty: no motion");
+DEFINE_double(max_translation,
+              0.0,
+              "Largest distance from the guess [m]; 0: any");
+DEFINE_double(max_yaw_deg, 180.0, "Largest yaw from the guess [deg]; 180: any");
+DEFINE_double(
+    max_tilt_deg,
+    5.0,
+    "Largest tilt from the guess [deg], with one of the bounds above");
+DEFINE_bool(crosscheck,
+            false,
+            "Solve every weighted subproblem by Ceres too and report the "
+            "largest difference");
+DEFINE_double(noise_bound,
+              0.0,
+              "Largest error of an inlier [m]; 0: the preset's");
+DEFINE_uint64(seed, 0, "Random seed");
+DEFINE_int32(threads,
+             0,
+             "Threads; 0: one per core. Does not affect the result");
+DEFINE_string(json, "", "File for the answer; empty or -: standard output");
+DEFINE_bool(explain,
+            false,
+            "Print what came of each stage in plain words, in place of the "
+            "JSON on standard output");
+DEFINE_string(picture, "", "PNG file for the points before and after");
 
 namespace quatro {
 namespace {
@@ -59,89 +121,42 @@ bool SetSwitch(const OptionList& list,
   return false;
 }
 
-// What a method that starts from a guess has no use for.
-bool CanStartFromGuess(const RegistrationFlags& flags,
+// Whether a method that starts from a guess can use the flags.
+bool CanStartFromGuess(const std::string& method,
+                       const std::string& refine,
                        const RegistrationOptions& options,
                        std::string* error) {
   const char* unused = nullptr;
-  if (!flags.refine.empty() && flags.refine != "none") unused = "refine";
+  if (!refine.empty() && refine != "none") unused = "refine";
   if (options.ins.up != Eigen::Vector3d::UnitZ()) unused = "gravity";
   if (options.ins.mode != InsMode::kNone) unused = "ins_mode";
   if (unused == nullptr) return true;
-  *error =
-      std::string("--") + unused + " does not go with --method=" + flags.method;
+  *error = std::string("--") + unused + " does not go with --method=" + method;
   return false;
 }
 
-bool CheckMethod(const RegistrationFlags& flags,
+bool CheckMethod(const std::string& method,
+                 const std::string& refine,
                  bool has_clouds,
                  const RegistrationOptions& options,
                  std::string* error) {
-  if (has_clouds ? !FindPairSolver(flags.method, {}, error)
-                 : !FindMatchSolver(flags.method, {}, error)) {
+  if (has_clouds ? !FindPairSolver(method, {}, error)
+                 : !FindMatchSolver(method, {}, error)) {
     return false;
   }
-  if (StartsFromGuess(flags.method)) {
-    return CanStartFromGuess(flags, options, error);
+  if (StartsFromGuess(method)) {
+    return CanStartFromGuess(method, refine, options, error);
   }
   std::string ignored;
-  const Method* method = FindMethod(flags.method, &ignored);
-  if (method != nullptr) return CanUseIns(*method, options.ins, error);
+  const Method* found = FindMethod(method, &ignored);
+  if (found != nullptr) return CanUseIns(*found, options.ins, error);
   if (options.ins.IsPlain()) return true;
-  *error = "--ins_mode and --gravity do not go with --method=" + flags.method;
+  *error = "--ins_mode and --gravity do not go with --method=" + method;
   return false;
 }
 
-}  // namespace
-
-bool StartsFromGuess(const std::string& method) {
-  const auto names = ExperimentMethodNames(MethodInput::kClouds);
-  return std::find(names.begin(), names.end(), method) != names.end();
-}
-
-bool ApplyFlags(const RegistrationFlags& flags,
-                bool has_clouds,
-                RegistrationOptions* options,
-                std::string* error) {
-  if (flags.noise_bound != 0.0) options->noise_bound = flags.noise_bound;
-  options->seed = flags.seed;
-  options->num_threads = flags.threads;
-  options->quatro.crosscheck = flags.crosscheck;
-  options->teaser.crosscheck = flags.crosscheck;
-  const OptionList quatro = QuatroOptionList(options);
-  if (!SetSwitch(
-          quatro, "recover", "recover_translation", flags.recover, error) ||
-      !SetSwitch(quatro, "polish", "polish", flags.polish, error)) {
-    return false;
-  }
-  if (!flags.refine.empty() &&
-      !SetOption(
-          RefinementOptionList(options), "refine", flags.refine, error)) {
-    *error = "--" + *error;
-    return false;
-  }
-  const auto ins = ParseInsFlags(flags.ins, error);
-  if (!ins) return false;
-  options->ins = *ins;
-  const auto bounds =
-      ParseBoundFlags(flags.bounds, StartsFromGuess(flags.method), error);
-  if (!bounds) return false;
-  options->bounds = *bounds;
-  if (!CheckMethod(flags, has_clouds, *options, error)) return false;
-  std::string ignored;
-  const Method* method = FindMethod(flags.method, &ignored);
-  if (method != nullptr) options->method = method->name;
-  if (!flags.options.empty() &&
-      !SetOptions(method ? OptionsOf(*method, has_clouds, options)
-                         : CommonOptions(options),
-                  flags.options,
-                  error)) {
-    *error = "--options: " + *error;
-    return false;
-  }
-  return options->IsValid(error);
-}
-
+// One line per option of --options that the method reads. Returns an empty text
+// and sets *error for an unknown method.
 std::string DescribeOptionsOf(const std::string& method,
                               bool has_clouds,
                               std::string* error) {
@@ -153,6 +168,117 @@ std::string DescribeOptionsOf(const std::string& method,
     text += option.name + "  " + option.Describe() + "\n";
   }
   return text;
+}
+
+// Where the JSON goes: a file, "-", or, if empty, nowhere. --explain takes its
+// place on standard output.
+std::string JsonPath() {
+  return FLAGS_json.empty() && !FLAGS_explain ? "-" : FLAGS_json;
+}
+
+}  // namespace
+
+bool StartsFromGuess(const std::string& method) {
+  const auto names = ExperimentMethodNames(MethodInput::kClouds);
+  return std::find(names.begin(), names.end(), method) != names.end();
+}
+
+bool ApplyFlags(const std::string& method,
+                const std::string& refine,
+                bool has_clouds,
+                RegistrationOptions* options,
+                std::string* error) {
+  if (FLAGS_noise_bound != 0.0) options->noise_bound = FLAGS_noise_bound;
+  options->seed = FLAGS_seed;
+  options->num_threads = FLAGS_threads;
+  options->quatro.crosscheck = FLAGS_crosscheck;
+  options->teaser.crosscheck = FLAGS_crosscheck;
+  const OptionList quatro = QuatroOptionList(options);
+  if (!SetSwitch(
+          quatro, "recover", "recover_translation", FLAGS_recover, error) ||
+      !SetSwitch(quatro, "polish", "polish", FLAGS_polish, error)) {
+    return false;
+  }
+  if (!refine.empty() &&
+      !SetOption(RefinementOptionList(options), "refine", refine, error)) {
+    *error = "--" + *error;
+    return false;
+  }
+  const auto ins = ParseInsFlags({FLAGS_ins_mode,
+                                  FLAGS_source_rpy_deg,
+                                  FLAGS_target_rpy_deg,
+                                  FLAGS_ins_std_deg,
+                                  FLAGS_gravity},
+                                 error);
+  if (!ins) return false;
+  options->ins = *ins;
+  const auto bounds = ParseBoundFlags({FLAGS_guess,
+                                       FLAGS_max_translation,
+                                       FLAGS_max_yaw_deg,
+                                       FLAGS_max_tilt_deg},
+                                      StartsFromGuess(method),
+                                      error);
+  if (!bounds) return false;
+  options->bounds = *bounds;
+  if (!CheckMethod(method, refine, has_clouds, *options, error)) return false;
+  std::string ignored;
+  const Method* found = FindMethod(method, &ignored);
+  if (found != nullptr) options->method = found->name;
+  if (!FLAGS_options.empty() &&
+      !SetOptions(found ? OptionsOf(*found, has_clouds, options)
+                        : CommonOptions(options),
+                  FLAGS_options,
+                  error)) {
+    *error = "--options: " + *error;
+    return false;
+  }
+  return options->IsValid(error);
+}
+
+std::optional<int> PrintLists(const std::string& method, bool has_clouds) {
+  if (FLAGS_list_methods) {
+    std::fputs(DescribeMethods().c_str(), stdout);
+    return kExitDone;
+  }
+  if (!FLAGS_list_options) return std::nullopt;
+  std::string error;
+  const std::string text = DescribeOptionsOf(method, has_clouds, &error);
+  if (text.empty()) return Fail(error);
+  std::fputs(text.c_str(), stdout);
+  return kExitDone;
+}
+
+bool CanWriteAnswer(const std::vector<OutputFlag>& others,
+                    const std::vector<std::string>& inputs,
+                    std::string* error) {
+  std::vector<OutputFlag> outputs = {{"json", JsonPath()},
+                                     {"explain", FLAGS_explain ? "-" : ""},
+                                     {"picture", FLAGS_picture}};
+  outputs.insert(outputs.end(), others.begin(), others.end());
+  return CanWriteAll(outputs, inputs, error) &&
+         HasEnding({"picture", FLAGS_picture}, ".png", error) &&
+         (FLAGS_picture.empty() || CanDrawPictures(error));
+}
+
+std::string VerdictLine(const Verdict& verdict) {
+  return std::string(StatusName(verdict.status)) + ": " + verdict.reason;
+}
+
+int WriteAnswer(const Json& report,
+                const RegistrationPicture& picture,
+                const Verdict& verdict,
+                std::vector<OutputFile> files) {
+  std::string error;
+  if (!FLAGS_picture.empty()) {
+    const auto drawn = DrawRegistration(picture, &error);
+    if (!drawn) return Fail(error);
+    files.push_back({FLAGS_picture, *drawn});
+  }
+  const std::string json_path = JsonPath();
+  if (!json_path.empty()) files.push_back({json_path, report.dump(2) + "\n"});
+  if (FLAGS_explain) files.push_back({"", Explain(report)});
+  if (!WriteOutputs(files, &error)) return Fail(error);
+  return verdict.IsRegistered() ? kExitDone : kExitNotVouchedFor;
 }
 
 }  // namespace quatro

@@ -1,49 +1,57 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The flags that quatro_register and quatro_solve share, made into options.
+// The flags that quatro_register and quatro_solve share, and what both programs
+// do with them. Zero and empty flags mean the preset's value.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_REGISTRATION_FLAGS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_REGISTRATION_FLAGS_H_
 
-#include <cstdint>
+#include <gflags/gflags_declare.h>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "experiments/programs/bound_flags.h"
-#include "experiments/programs/ins_flags.h"
+#include "experiments/base/outputs.h"
+#include "experiments/programs/json_report.h"
+#include "experiments/programs/picture.h"
 #include "robust/registration/options.h"
+#include "robust/verdict/verdict.h"
+
+DECLARE_uint64(seed);
 
 namespace quatro {
-
-// The flags as they were given; zero and empty mean the preset's value.
-struct RegistrationFlags {
-  std::string method;
-  std::string recover;  // "on", "off" or empty.
-  std::string polish;   // The same.
-  std::string refine;   // Empty without clouds.
-  std::string options;  // "name=value;name=value", by --list_options.
-  bool crosscheck = false;
-  double noise_bound = 0.0;  // [m]
-  std::uint64_t seed = 0;
-  int threads = 0;
-  InsFlags ins;
-  BoundFlags bounds;
-};
 
 // Whether the method works on clouds alone, from a guess.
 bool StartsFromGuess(const std::string& method);
 
-// Sets what the flags ask for. Returns false and sets *error, which names the
-// flag, for a value that is not valid or does not go with the method.
-bool ApplyFlags(const RegistrationFlags& flags,
+// Sets what the flags ask for, among them --method and --refine, which is empty
+// without clouds. Returns false and sets *error, which names the flag, for a
+// value that is not valid or does not go with the method.
+bool ApplyFlags(const std::string& method,
+                const std::string& refine,
                 bool has_clouds,
                 RegistrationOptions* options,
                 std::string* error);
 
-// One line per option of --options that the method takes, with its value in
-// preset kitti. Returns an empty text and sets *error for an unknown method.
-std::string DescribeOptionsOf(const std::string& method,
-                              bool has_clouds,
-                              std::string* error);
+// Prints the list that --list_methods or --list_options asks for and returns
+// the exit code. Returns nullopt if neither is given.
+std::optional<int> PrintLists(const std::string& method, bool has_clouds);
+
+// Whether --json, --explain, --picture and `others` can be written. Returns
+// false and sets *error if one of them cannot.
+bool CanWriteAnswer(const std::vector<OutputFlag>& others,
+                    const std::vector<std::string>& inputs,
+                    std::string* error);
+
+// "registered: 245 of 1109 matches are inliers; ..."
+std::string VerdictLine(const Verdict& verdict);
+
+// Writes `files`, the picture if --picture is given, and the report where
+// --json and --explain ask for it. Returns the program's exit code.
+int WriteAnswer(const Json& report,
+                const RegistrationPicture& picture,
+                const Verdict& verdict,
+                std::vector<OutputFile> files);
 
 }  // namespace quatro
 

@@ -247,8 +247,7 @@ int WriteSets(const std::vector<quatro::PairSetOptions>& sets) {
 
 int Main(int argc, char** argv) {
   using quatro::Fail;
-  if (const auto exit_code =
-          quatro::ParseFlags(kUsage, "simulate_main", argc, argv)) {
+  if (const auto exit_code = quatro::ParseFlags(kUsage, argc, argv)) {
     return *exit_code;
   }
   std::string error;

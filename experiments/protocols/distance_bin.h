@@ -34,8 +34,7 @@ struct DistanceBin {
   }
 };
 
-// The bins of the paper's Tables I and III.
-inline std::vector<DistanceBin> TableOneBins() { return {{9.0, 12.0}}; }
+// The bins of the paper's Table III.
 inline std::vector<DistanceBin> TableThreeBins() {
   return {{0.0, 2.0}, {4.0, 6.0}, {8.0, 10.0}};
 }

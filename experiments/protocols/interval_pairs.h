@@ -20,7 +20,7 @@ namespace quatro {
 struct IntervalPairOptions {
   std::vector<int> intervals = {1, 3, 5};  // k
   int first_frame = -1;                    // -1: of the first scan.
-  int last_frame = -1;                     // Of i + k; -1: the last.
+  int last_frame = -1;                     // Largest i + k; -1: the last.
 
   // If true, i - first_frame is a multiple of k, so that the pairs form a
   // chain, as in an odometry.

@@ -24,7 +24,7 @@ struct PlannedRun {
   const SequenceData* drive = nullptr;
   std::string method;
   int interval = 1;
-  std::map<int, std::string> scans;  // Of the selected frames.
+  std::map<int, std::string> scans;  // By frame, as selected.
   std::vector<int> frames;
   std::vector<Rigid3> true_poses;
   std::string path;  // Without file extension.

@@ -143,7 +143,7 @@ std::optional<PairSelection> SelectProblems(const FamilyOptions& options,
         });
     for (const Bin& bin : family->make_bins(options.noise_bound)) {
       for (int i = 0; i < options.num_problems; ++i) {
-        // The same seed for all bins, so that bins differ only in the varied
+        // One seed for all bins, so that bins differ only in the varied
         // parameter.
         const std::uint64_t seed =
             Mix(options.seed) + static_cast<std::uint64_t>(i);

@@ -26,9 +26,6 @@ PointGrid FindGrid(const PointsRef& points);
 // moved to its boundary.
 std::string QuantizePoints(const PointsRef& points, const PointGrid& grid);
 
-// `bytes` must consist of whole points.
-Points UnquantizePoints(const std::string& bytes, const PointGrid& grid);
-
 }  // namespace quatro
 
 #endif  // QUATRO_EXPERIMENTS_REPORT_QUANTIZED_POINTS_H_

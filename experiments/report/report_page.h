@@ -19,7 +19,7 @@ namespace quatro {
 
 struct ReportView {
   std::string pair;
-  std::string json;  // From FormatPairView().
+  std::string json;  // Result of FormatPairView().
 };
 
 struct ReportFigure {

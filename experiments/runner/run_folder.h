@@ -45,7 +45,6 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   const std::string& path() const { return path_; }
-  bool IsNew() const { return rows_.empty(); }
   bool Has(const std::string& pair) const { return rows_.contains(pair); }
   std::size_t size() const { return rows_.size(); }
 
@@ -73,7 +72,7 @@ class RunFolder {
   std::string path_;
   int lock_ = -1;
   int file_ = -1;
-  std::uint64_t end_ = 0;  // Of the complete lines in rows.csv [bytes].
+  std::uint64_t end_ = 0;  // End of the complete lines in rows.csv.
   std::unordered_map<std::string, Span> rows_;  // Per pair.
 };
 

@@ -12,8 +12,8 @@
 
 #include "experiments/datasets/pair_task.h"
 #include "experiments/metrics/pair_result.h"
-#include "experiments/programs/own_method.h"
 #include "experiments/report/pair_view.h"
+#include "experiments/runner/own_method.h"
 #include "features/io/cloud_io.h"
 #include "robust/registration/ins.h"
 #include "robust/registration/registration.h"
@@ -34,7 +34,7 @@ struct RunMethods {
 
   ReadCloudOptions reading;
 
-  // Of what tasks keep for the report, but for the seed, which is that above.
+  // Options of what tasks keep for the report, with the seed above.
   ViewOptions view = {};
 
   // How a method that needs an INS uses the pair's INS. A pair without INS is

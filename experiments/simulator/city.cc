@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kHalfWidth = 5.5;     // Of a roadway [m].
+constexpr double kHalfWidth = 5.5;     // Half of a roadway [m].
 constexpr double kOutskirts = 60.0;    // Around the outermost streets [m].
 constexpr double kBendLength = 310.0;  // Wavelength of (1) [m].
 

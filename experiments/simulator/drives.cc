@@ -412,9 +412,9 @@ bool SimulateDrive(const DriveOptions& options,
   if (!options.IsValid(error)) return false;
   std::unique_ptr<SequenceWriter> writer;
   if (options.layout == "naver") {
-    writer = NaverWriter::Create(output_dir, options.overwrite, error);
+    writer = MakeNaverWriter(output_dir, options.overwrite, error);
   } else {
-    writer = KittiWriter::Create(output_dir, options.overwrite, error);
+    writer = MakeKittiWriter(output_dir, options.overwrite, error);
   }
   return writer != nullptr && WriteFrames(options, progress, *writer, error) &&
          writer->Finish(error);

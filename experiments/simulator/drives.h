@@ -31,7 +31,7 @@ std::vector<std::string> DriveNames();
 
 struct DriveOptions {
   std::string name = "00";
-  uint64_t seed = 1;            // Of world, noise and traffic.
+  uint64_t seed = 1;            // Seed of world, noise and traffic.
   int num_frames = 0;           // 0: to the end of the path.
   double frame_spacing = 1.0;   // [m]; at 10 Hz.
   std::string sensor = "auto";  // See sensors.h; auto: by the name.
@@ -40,7 +40,7 @@ struct DriveOptions {
   bool has_sweep_motion = false;
 
   int num_moving_cars = 15;    // In a city.
-  double tilt_sigma = 0.0052;  // Of roll and pitch (suspension) [rad].
+  double tilt_sigma = 0.0052;  // Roll and pitch (suspension) [rad].
 
   // Errors of the INS' roll, pitch and yaw: noise per frame, and a constant
   // part per drive [rad].

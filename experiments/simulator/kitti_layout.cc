@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/simulator/sequence_folder.h"
 #include "features/base/file.h"
 #include "features/io/cloud_io.h"
 
@@ -51,13 +52,71 @@ std::string FormatCalibration() {
   return text + "Tr: " + FormatRigid3(Cam0FromSensor());
 }
 
+class KittiWriter final : public SequenceWriter {
+ public:
+  explicit KittiWriter(std::unique_ptr<SequenceFolder> folder)
+      : folder_(std::move(folder)) {}
+
+  bool Add(const PointCloud& cloud,
+           const Rigid3& world_from_sensor,
+           double time,
+           const InsReading* reading,
+           std::string* error) override;
+  bool Finish(std::string* error) override;
+
+ private:
+  std::unique_ptr<SequenceFolder> folder_;
+  Rigid3 first_from_world_;
+  int num_frames_ = 0;
+  std::string poses_, times_;
+};
+
+bool KittiWriter::Add(const PointCloud& cloud,
+                      const Rigid3& world_from_sensor,
+                      double time,
+                      const InsReading* reading,
+                      std::string* error) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "%06d.bin", num_frames_);
+  const fs::path& folder = folder_->path();
+  if (!WriteCloud(cloud, folder / "velodyne" / name, error)) return false;
+  if (reading != nullptr) {
+    std::error_code code;
+    fs::create_directories(folder / "oxts" / "data", code);
+    std::snprintf(name, sizeof(name), "%010d.txt", num_frames_);
+    if (!WriteFileAtomically((folder / "oxts" / "data" / name).string(),
+                             FormatOxts(*reading),
+                             error)) {
+      return false;
+    }
+  }
+  if (num_frames_ == 0) first_from_world_ = Inverse(world_from_sensor);
+  const Rigid3 cam0_from_sensor = Cam0FromSensor();
+  poses_ += FormatRigid3(cam0_from_sensor * first_from_world_ *
+                         world_from_sensor * Inverse(cam0_from_sensor));
+  char stamp[32];
+  std::snprintf(stamp, sizeof(stamp), "%e\n", time);
+  times_ += stamp;
+  ++num_frames_;
+  return true;
+}
+
+bool KittiWriter::Finish(std::string* error) {
+  const fs::path& folder = folder_->path();
+  return WriteFileAtomically((folder / "poses.txt").string(), poses_, error) &&
+         WriteFileAtomically(
+             (folder / "calib.txt").string(), FormatCalibration(), error) &&
+         WriteFileAtomically((folder / "times.txt").string(), times_, error) &&
+         folder_->Finish(error);
+}
+
 }  // namespace
 
 std::string FormatOxts(const InsReading& reading) {
   constexpr double kEarth = 6378137.0;  // Radius [m].
   constexpr double kDegree = M_PI / 180.0;
-  constexpr double kLatitude = 49.0;  // Of the origin [deg].
-  constexpr double kLongitude = 8.4;  // Of the origin [deg].
+  constexpr double kLatitude = 49.0;  // Latitude of the origin [deg].
+  constexpr double kLongitude = 8.4;  // Longitude of the origin [deg].
   constexpr double kGravity = 9.81;   // [m/s^2]
   const double scale = std::cos(kLatitude * kDegree);
   const double north = std::log(std::tan((90.0 + kLatitude) * kDegree / 2.0)) +
@@ -111,59 +170,13 @@ Rigid3 Cam0FromSensor() {
       Eigen::Vector3d(0.0, -0.08, -0.27)};
 }
 
-std::unique_ptr<KittiWriter> KittiWriter::Create(const std::string& output_dir,
-                                                 bool overwrite,
-                                                 std::string* error) {
-  auto folder = SequenceFolder::Create(output_dir, overwrite, error);
+std::unique_ptr<SequenceWriter> MakeKittiWriter(const std::string& output_dir,
+                                                bool overwrite,
+                                                std::string* error) {
+  auto folder =
+      SequenceFolder::Create(output_dir, "velodyne", overwrite, error);
   if (folder == nullptr) return nullptr;
-  std::error_code code;
-  fs::create_directories(folder->path() / "velodyne", code);
-  if (code) {
-    *error = folder->path().string() + ": " + code.message();
-    return nullptr;
-  }
-  std::unique_ptr<KittiWriter> writer(new KittiWriter);
-  writer->folder_ = std::move(folder);
-  return writer;
-}
-
-bool KittiWriter::Add(const PointCloud& cloud,
-                      const Rigid3& world_from_sensor,
-                      double time,
-                      const InsReading* reading,
-                      std::string* error) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "%06d.bin", num_frames_);
-  const fs::path& folder = folder_->path();
-  if (!WriteCloud(cloud, folder / "velodyne" / name, error)) return false;
-  if (reading != nullptr) {
-    std::error_code code;
-    fs::create_directories(folder / "oxts" / "data", code);
-    std::snprintf(name, sizeof(name), "%010d.txt", num_frames_);
-    if (!WriteFileAtomically((folder / "oxts" / "data" / name).string(),
-                             FormatOxts(*reading),
-                             error)) {
-      return false;
-    }
-  }
-  if (num_frames_ == 0) first_from_world_ = Inverse(world_from_sensor);
-  const Rigid3 cam0_from_sensor = Cam0FromSensor();
-  poses_ += FormatRigid3(cam0_from_sensor * first_from_world_ *
-                         world_from_sensor * Inverse(cam0_from_sensor));
-  char stamp[32];
-  std::snprintf(stamp, sizeof(stamp), "%e\n", time);
-  times_ += stamp;
-  ++num_frames_;
-  return true;
-}
-
-bool KittiWriter::Finish(std::string* error) {
-  const fs::path& folder = folder_->path();
-  return WriteFileAtomically((folder / "poses.txt").string(), poses_, error) &&
-         WriteFileAtomically(
-             (folder / "calib.txt").string(), FormatCalibration(), error) &&
-         WriteFileAtomically((folder / "times.txt").string(), times_, error) &&
-         folder_->Finish(error);
+  return std::make_unique<KittiWriter>(std::move(folder));
 }
 
 }  // namespace quatro

@@ -20,10 +20,8 @@
 #include <memory>
 #include <string>
 
-#include "experiments/simulator/sequence_folder.h"
 #include "experiments/simulator/sequence_writer.h"
 #include "features/base/rigid3.h"
-#include "features/io/point_cloud.h"
 
 namespace quatro {
 
@@ -36,28 +34,10 @@ std::string FormatOxts(const InsReading& reading);
 // The mounting of cam0 in simulated sequences: x right, y down, z forward.
 Rigid3 Cam0FromSensor();
 
-class KittiWriter : public SequenceWriter {
- public:
-  // Returns nullptr and sets *error if the folder cannot be created.
-  static std::unique_ptr<KittiWriter> Create(const std::string& output_dir,
-                                             bool overwrite,
-                                             std::string* error);
-
-  bool Add(const PointCloud& cloud,
-           const Rigid3& world_from_sensor,
-           double time,
-           const InsReading* reading,
-           std::string* error) override;
-  bool Finish(std::string* error) override;
-
- private:
-  KittiWriter() = default;
-
-  std::unique_ptr<SequenceFolder> folder_;
-  Rigid3 first_from_world_;
-  int num_frames_ = 0;
-  std::string poses_, times_;
-};
+// Returns nullptr and sets *error if the folder cannot be created.
+std::unique_ptr<SequenceWriter> MakeKittiWriter(const std::string& output_dir,
+                                                bool overwrite,
+                                                std::string* error);
 
 }  // namespace quatro
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include "features/base/parallel.h"
 #include "features/base/random.h"
@@ -74,6 +75,49 @@ struct Echo {
   Vector3d point;
   float intensity = -1.0f;  // Negative: no echo.
 };
+
+// The pose of the sensor after this fraction of a sweep.
+Rigid3 PoseAt(const Rigid3& world_from_sensor,
+              const Sweep& sweep,
+              double fraction) {
+  if (sweep.IsStill()) return world_from_sensor;
+  const Vector3d turn = (fraction - 0.5) * sweep.turn;  // Equation (3).
+  const Eigen::AngleAxisd rotation(turn.norm(), turn.stableNormalized());
+  return {world_from_sensor.rotation * rotation.toRotationMatrix(),
+          world_from_sensor.translation + (fraction - 0.5) * sweep.velocity};
+}
+
+RTCRayHit MakeRay(const Vector3d& from,
+                  const Vector3d& direction,
+                  double max_range) {
+  const Eigen::Vector3f origin = from.cast<float>();
+  RTCRayHit hit = {};
+  hit.ray.org_x = origin.x();
+  hit.ray.org_y = origin.y();
+  hit.ray.org_z = origin.z();
+  hit.ray.dir_x = static_cast<float>(direction.x());
+  hit.ray.dir_y = static_cast<float>(direction.y());
+  hit.ray.dir_z = static_cast<float>(direction.z());
+  hit.ray.tnear = 0.0f;
+  hit.ray.tfar = static_cast<float>(max_range);
+  hit.ray.mask = ~0u;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  return hit;
+}
+
+// The points of the rays that came back.
+PointCloud MakeCloud(std::vector<Echo> echoes) {
+  std::erase_if(echoes, [](const Echo& echo) { return echo.intensity < 0.0f; });
+  PointCloud cloud;
+  cloud.points.resize(3, static_cast<Eigen::Index>(echoes.size()));
+  cloud.intensity.resize(cloud.points.cols());
+  for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
+    const Echo& echo = echoes[static_cast<size_t>(i)];
+    cloud.points.col(i) = echo.point;
+    cloud.intensity[i] = echo.intensity;
+  }
+  return cloud;
+}
 
 }  // namespace
 
@@ -187,14 +231,6 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
                             const LidarScene* others) const {
   const auto num_columns = static_cast<size_t>(options.num_columns);
   const double phase = RayNoise(id, kNoRay).Uniform(kPhase);
-  const auto pose_at = [&](double fraction) -> Rigid3 {
-    if (sweep.IsStill()) return world_from_sensor;
-    const Vector3d turn = (fraction - 0.5) * sweep.turn;  // Equation (3).
-    const Eigen::AngleAxisd rotation(turn.norm(), turn.stableNormalized());
-    return {world_from_sensor.rotation * rotation.toRotationMatrix(),
-            world_from_sensor.translation + (fraction - 0.5) * sweep.velocity};
-  };
-
   const auto cast = [&](size_t beam, size_t column) -> Echo {
     const double elevation = options.elevations[beam];
     const double turned = 2.0 * M_PI * (static_cast<double>(column) + phase) /
@@ -205,21 +241,11 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
     const Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                              std::cos(elevation) * std::sin(azimuth),
                              std::sin(elevation));  // Equation (1).
-    const Rigid3 pose = pose_at(turned / (2.0 * M_PI));
-    const Eigen::Vector3f origin = pose.translation.cast<float>();
+    const Rigid3 pose = PoseAt(world_from_sensor, sweep, turned / (2.0 * M_PI));
     const Vector3d direction_in_world = pose.rotation * direction;
 
-    RTCRayHit hit = {};
-    hit.ray.org_x = origin.x();
-    hit.ray.org_y = origin.y();
-    hit.ray.org_z = origin.z();
-    hit.ray.dir_x = static_cast<float>(direction_in_world.x());
-    hit.ray.dir_y = static_cast<float>(direction_in_world.y());
-    hit.ray.dir_z = static_cast<float>(direction_in_world.z());
-    hit.ray.tnear = 0.0f;
-    hit.ray.tfar = static_cast<float>(options.max_range);
-    hit.ray.mask = ~0u;
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit hit =
+        MakeRay(pose.translation, direction_in_world, options.max_range);
     Intersect(scene_, &hit);
     const LidarScene* seen = this;
     if (others != nullptr) {
@@ -263,16 +289,7 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
                 }
               });
 
-  std::erase_if(echoes, [](const Echo& echo) { return echo.intensity < 0.0f; });
-  PointCloud cloud;
-  cloud.points.resize(3, static_cast<Eigen::Index>(echoes.size()));
-  cloud.intensity.resize(cloud.points.cols());
-  for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
-    const Echo& echo = echoes[static_cast<size_t>(i)];
-    cloud.points.col(i) = echo.point;
-    cloud.intensity[i] = echo.intensity;
-  }
-  return cloud;
+  return MakeCloud(std::move(echoes));
 }
 
 }  // namespace quatro

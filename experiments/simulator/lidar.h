@@ -66,7 +66,7 @@ struct ScanId {
 // where (R, t) is the pose in the middle of the revolution.
 struct Sweep {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // In the world [m].
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();      // Of the sensor [rad].
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // Turn of the sensor [rad].
 
   bool IsStill() const { return velocity.isZero(0.0) && turn.isZero(0.0); }
 };

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/simulator/sequence_folder.h"
 #include "features/base/file.h"
 #include "features/io/cloud_io.h"
 
@@ -26,24 +27,23 @@ std::string FormatNumber(double value) {
   return number;
 }
 
-}  // namespace
+class NaverWriter final : public SequenceWriter {
+ public:
+  explicit NaverWriter(std::unique_ptr<SequenceFolder> folder)
+      : folder_(std::move(folder)) {}
 
-std::unique_ptr<NaverWriter> NaverWriter::Create(const std::string& output_dir,
-                                                 bool overwrite,
-                                                 std::string* error) {
-  auto folder = SequenceFolder::Create(output_dir, overwrite, error);
-  if (folder == nullptr) return nullptr;
-  std::error_code code;
-  fs::create_directories(folder->path() / "sensors" / "records_data" / "lidar0",
-                         code);
-  if (code) {
-    *error = folder->path().string() + ": " + code.message();
-    return nullptr;
-  }
-  std::unique_ptr<NaverWriter> writer(new NaverWriter);
-  writer->folder_ = std::move(folder);
-  return writer;
-}
+  bool Add(const PointCloud& cloud,
+           const Rigid3& world_from_sensor,
+           double time,
+           const InsReading* reading,
+           std::string* error) override;
+  bool Finish(std::string* error) override;
+
+ private:
+  std::unique_ptr<SequenceFolder> folder_;
+  int num_frames_ = 0;
+  std::string records_, poses_, ins_;
+};
 
 bool NaverWriter::Add(const PointCloud& cloud,
                       const Rigid3& world_from_sensor,
@@ -97,6 +97,20 @@ bool NaverWriter::Finish(std::string* error) {
                                 "timestamp, device_id, roll, pitch, yaw",
                                 ins_)) &&
          folder_->Finish(error);
+}
+
+}  // namespace
+
+std::unique_ptr<SequenceWriter> MakeNaverWriter(const std::string& output_dir,
+                                                bool overwrite,
+                                                std::string* error) {
+  auto folder =
+      SequenceFolder::Create(output_dir,
+                             fs::path("sensors") / "records_data" / "lidar0",
+                             overwrite,
+                             error);
+  if (folder == nullptr) return nullptr;
+  return std::make_unique<NaverWriter>(std::move(folder));
 }
 
 }  // namespace quatro

@@ -19,34 +19,14 @@
 #include <memory>
 #include <string>
 
-#include "experiments/simulator/sequence_folder.h"
 #include "experiments/simulator/sequence_writer.h"
-#include "features/base/rigid3.h"
-#include "features/io/point_cloud.h"
 
 namespace quatro {
 
-class NaverWriter : public SequenceWriter {
- public:
-  // Returns nullptr and sets *error if the folder cannot be created.
-  static std::unique_ptr<NaverWriter> Create(const std::string& output_dir,
-                                             bool overwrite,
-                                             std::string* error);
-
-  bool Add(const PointCloud& cloud,
-           const Rigid3& world_from_sensor,
-           double time,
-           const InsReading* reading,
-           std::string* error) override;
-  bool Finish(std::string* error) override;
-
- private:
-  NaverWriter() = default;
-
-  std::unique_ptr<SequenceFolder> folder_;
-  int num_frames_ = 0;
-  std::string records_, poses_, ins_;
-};
+// Returns nullptr and sets *error if the folder cannot be created.
+std::unique_ptr<SequenceWriter> MakeNaverWriter(const std::string& output_dir,
+                                                bool overwrite,
+                                                std::string* error);
 
 }  // namespace quatro
 

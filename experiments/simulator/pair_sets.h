@@ -42,8 +42,8 @@ struct PairSetOptions {
   // A sensor of sensors.h, or `auto` for the sensor of the world.
   std::string sensor = "auto";
 
-  double tilt_sigma = 0.0052;  // Of roll and pitch (suspension) [rad].
-  double ins_sigma = 0.0087;   // Of the INS' roll, pitch and yaw [rad].
+  double tilt_sigma = 0.0052;  // Roll and pitch (suspension) [rad].
+  double ins_sigma = 0.0087;   // INS' roll, pitch and yaw [rad].
 
   bool IsValid(std::string* error) const;
 
@@ -56,7 +56,7 @@ struct SetPair {
   PointCloud source;
   PointCloud target;
 
-  // Nullopt if the scans do not overlap.
+  // Not set if the scans do not overlap.
   std::optional<Rigid3> true_target_from_source;
   std::optional<Rigid3> twin_target_from_source;
 
@@ -65,7 +65,7 @@ struct SetPair {
   Rigid3 world_from_source;  // Each in its own world.
   Rigid3 world_from_target;
   std::string variant, sensor, apart;
-  uint64_t seed = 0;  // Of the world of the source.
+  uint64_t seed = 0;  // Seed of the source's world.
   uint64_t target_seed = 0;
 };
 

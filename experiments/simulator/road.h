@@ -32,7 +32,7 @@ struct RoadOptions {
   double length = 250.0;     // [m]
   double slope = 0.0;        // Slope of the axis [rad].
   double undulation = 0.05;  // Amplitude of the 40 m sinusoids [m].
-  double half_width = 4.5;   // Of the roadway with parked cars [m].
+  double half_width = 4.5;   // Roadway with parked cars [m].
 
   // A crest (climb < 0) or a sag: the change of grade between curve_begin and
   // curve_end [m], and the change of bank, positive for falling to the right

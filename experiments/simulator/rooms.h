@@ -27,8 +27,8 @@
 namespace quatro {
 
 struct RoomOptions {
-  uint64_t seed = 1;           // Of walls and pillars.
-  uint64_t contents_seed = 1;  // Of movable objects.
+  uint64_t seed = 1;           // Seed of walls and pillars.
+  uint64_t contents_seed = 1;  // Seed of movable objects.
   double length = 30.0;        // [m]
   double width = 20.0;         // [m]
   double height = 4.0;         // [m]

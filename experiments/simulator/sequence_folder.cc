@@ -66,7 +66,10 @@ bool MoveInto(const fs::path& folder,
 }  // namespace
 
 std::unique_ptr<SequenceFolder> SequenceFolder::Create(
-    const std::string& output_dir, bool overwrite, std::string* error) {
+    const std::string& output_dir,
+    const fs::path& scans,
+    bool overwrite,
+    std::string* error) {
   if (output_dir.empty()) {
     *error = "output_dir is empty, must name a folder";
     return nullptr;
@@ -83,6 +86,7 @@ std::unique_ptr<SequenceFolder> SequenceFolder::Create(
   folder->output_ = output;
   folder->folder_ = output.string() + ".partial." + std::to_string(getpid());
   folder->made_ = MakeFolders(folder->folder_, &code);
+  if (!code) fs::create_directories(folder->folder_ / scans, code);
   if (code) {
     *error = folder->folder_.string() + ": " + code.message();
     return nullptr;

@@ -15,12 +15,14 @@ namespace quatro {
 
 class SequenceFolder {
  public:
-  // Returns nullptr and sets *error if the folder is not empty (with
-  // `overwrite`: contains anything but a sequence, in any layout), or if it
-  // cannot be written.
-  static std::unique_ptr<SequenceFolder> Create(const std::string& output_dir,
-                                                bool overwrite,
-                                                std::string* error);
+  // Makes the folder, and in it the folder `scans`. Returns nullptr and sets
+  // *error if the folder is not empty (with `overwrite`: contains anything but
+  // a sequence, in any layout), or if it cannot be written.
+  static std::unique_ptr<SequenceFolder> Create(
+      const std::string& output_dir,
+      const std::filesystem::path& scans,
+      bool overwrite,
+      std::string* error);
   ~SequenceFolder();
   SequenceFolder(const SequenceFolder&) = delete;
   SequenceFolder& operator=(const SequenceFolder&) = delete;

@@ -45,7 +45,7 @@ RoadOptions RoadFor(const Options& options, double travel) {
 
 bool WriteFrames(const SimulateSequenceOptions& options,
                  const SimulateProgress& progress,
-                 KittiWriter& writer,
+                 SequenceWriter& writer,
                  std::string* error) {
   const Road road(
       RoadFor(options, (options.num_frames - 1) * options.frame_spacing));
@@ -132,7 +132,7 @@ bool SimulateSequence(const SimulateSequenceOptions& options,
                       const SimulateProgress& progress,
                       std::string* error) {
   if (!options.IsValid(error)) return false;
-  const auto writer = KittiWriter::Create(output_dir, options.overwrite, error);
+  const auto writer = MakeKittiWriter(output_dir, options.overwrite, error);
   return writer != nullptr && WriteFrames(options, progress, *writer, error) &&
          writer->Finish(error);
 }

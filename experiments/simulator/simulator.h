@@ -21,12 +21,12 @@
 namespace quatro {
 
 struct SimulatePairOptions {
-  uint64_t seed = 1;           // Of street and noise.
-  double distance = 10.0;      // Of the source ahead of the target [m].
+  uint64_t seed = 1;           // Seed of street and noise.
+  double distance = 10.0;      // Source ahead of the target [m].
   double yaw = 0.0;            // Rotation of the source car [rad].
   double lateral = 0.0;        // Shift to the left as seen from the target [m].
   double slope = 0.0;          // [rad]
-  double tilt_sigma = 0.0052;  // Of roll and pitch (suspension) [rad].
+  double tilt_sigma = 0.0052;  // Roll and pitch (suspension) [rad].
   int num_threads = 1;         // 0: all cores.
   LidarOptions lidar;
 

@@ -22,7 +22,7 @@ Scene MakeStreet(const Road& road);
 
 struct StreetSides {
   double reach = 58.0;        // Largest |d| with objects [m].
-  double corner = 1.0;        // From a side street's curb to a house [m].
+  double corner = 1.0;        // Side street's curb to a house [m].
   double terrace = 0.3;       // Share of blocks without gaps.
   bool clear_mouths = false;  // No lamps and signs at side streets.
   double deeper = 0.0;        // Extra depth of front gardens [m].

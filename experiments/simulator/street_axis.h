@@ -27,7 +27,7 @@ class StreetAxis {
   virtual ~StreetAxis() = default;
 
   virtual double length() const = 0;      // [m]
-  virtual double half_width() const = 0;  // Of the roadway [m].
+  virtual double half_width() const = 0;  // Half of the roadway [m].
 
   // By ascending s.
   virtual const std::vector<SideStreet>& side_streets() const = 0;
@@ -56,7 +56,8 @@ class StreetAxis {
   // Origin on the ground, z its normal over the footprint of a car, x along the
   // street rotated by `yaw` [rad].
   Rigid3 WorldFromGround(double s, double d, double yaw) const {
-    constexpr double kHalfBase = 1.35, kHalfTrack = 0.75;  // Of a car [m].
+    constexpr double kHalfBase = 1.35,
+                     kHalfTrack = 0.75;  // Half a car's base and track [m].
     const Eigen::Vector3d ahead =
         SurfacePoint(s + kHalfBase, d) - SurfacePoint(s - kHalfBase, d);
     const Eigen::Vector3d left =

@@ -116,7 +116,7 @@ void AddOpenings(double wall_width,
 
 struct Walls {
   double height;  // [m]
-  double floor;   // Of the first story [m].
+  double floor;   // Floor of the first story [m].
   float reflectance;
 };
 
@@ -250,7 +250,7 @@ void AddBush(const Rigid3& world_from_bush, Random& random, Scene& scene) {
 void AddTree(const Rigid3& world_from_tree, Random& random, Scene& scene) {
   const double trunk = Uniform(random, 0.08, 0.25);
   const double crown = Uniform(random, 1.2, 3.0);
-  const double base = Uniform(random, 0.8, 2.8);  // Of the crown.
+  const double base = Uniform(random, 0.8, 2.8);  // Base of the crown.
   const float shade = Shade(random, 0.3, 0.5);
   scene.AddCylinder(world_from_tree, trunk, -1.0, base + crown, 0.35f);
   scene.AddFoliage(world_from_tree * Shift(0.0, 0.0, base + 1.1 * crown),

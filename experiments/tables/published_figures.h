@@ -31,7 +31,7 @@ struct PublishedDrift {
   double rotation_deg_per_100m = 0.0;
 };
 
-// From Lim et al., "A Single Correspondence Is Enough: Robust Global
+// Figures of Lim et al., "A Single Correspondence Is Enough: Robust Global
 // Registration to Avoid Degeneracy in Urban Environments", ICRA 2022:
 
 // Table I: success within 2 m and 10 deg, loop pairs 9-12 m apart; sets are the

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Lines, words and numbers in text files, whatever the locale. A byte order
+// Lines, words and numbers in text files, for any locale. A byte order
 // mark of UTF-8 is passed over, and lines end in LF, CR LF or CR.
 
 #ifndef QUATRO_FEATURES_BASE_CLOUD_TEXT_H_

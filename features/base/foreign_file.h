@@ -10,8 +10,9 @@
 
 namespace quatro {
 
-// What the file is and what to do about it, as the end of an error message: "is
-// gzip-compressed; run gunzip". Empty if it is nothing that is known here.
+// A description of the file and what to do about it, as the end of an error
+// message: "is gzip-compressed; run gunzip". Empty if it is nothing that is
+// known here.
 std::string_view DescribeForeignFile(std::string_view bytes);
 
 // Whether all of the first 512 bytes are printable ASCII or white space.

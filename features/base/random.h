@@ -25,7 +25,7 @@ inline std::uint64_t Mix(std::uint64_t x) {
 // The sequence of random numbers of a seed.
 class Random {
  public:
-  // The same seed gives the same numbers.
+  // Equal seeds give equal numbers.
   explicit Random(std::uint64_t seed) : state_(Mix(seed)) {}
 
   // The next 64 bits.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How many numbers a point has in a .bin, which has no header: x y z intensity
-// as float32 is KITTI's, x y z intensity ring is nuScenes', and others are of
-// 3 or 6 numbers, or of doubles.
+// The number of values of a point in a .bin, which has no header. KITTI's are
+// x y z intensity as float32, nuScenes' x y z intensity ring; others have 3 or
+// 6 values, or doubles.
 //
 // If a point has c numbers, every c-th value is of one kind: x is wide, z and
 // the intensity are narrow. With g = asinh, which tames far points, and pairs
@@ -11,15 +11,15 @@
 //   G(c) = E |g(a) - g(b)|                                                 (1)
 //
 // is therefore smallest at the true c and its multiples: for any kinds a and b,
-// E |a - b| >= (E |a - a'| + E |b - b'|) / 2 (energy distance). The c is chosen
-// that has the smallest G, unless
+// E |a - b| >= (E |a - a'| + E |b - b'|) / 2 (energy distance). The c with the
+// smallest G is chosen, except in two cases:
 //
-//   - a divisor of it comes near, because scanners whose beams alternate have
-//     points that differ in pairs, or
-//   - it is not smaller than G(1), as of values without columns: refused.
+//   - A divisor of c with nearly as small a G is preferred, because points of
+//     scanners whose beams alternate differ in pairs.
+//   - If G(c) is not below G(1), the values have no columns: an error.
 //
-// Non-finite values and points at the origin, three zeros in a row, tell
-// nothing and are left out. The values are float64 if they make no sense as
+// Non-finite values and points at the origin, three zeros in a row, are
+// ignored. The values are float64 if they make no sense as
 // float32: the low half of a double is either noise, of which two in five are
 // beyond 8e6, or empty. Coordinates beyond 8e6 m, the Earth's radius and a bit,
 // make no sense.
@@ -43,7 +43,7 @@ namespace quatro {
 
 // The layout of one point.
 struct BinLayout {
-  int num_values = 4;  // Of a point: x, y, z, the intensity if there are four.
+  int num_values = 4;                      // x, y, z, then the intensity.
   ScalarType type = ScalarType::kFloat32;  // Or kFloat64.
 
   // [bytes]

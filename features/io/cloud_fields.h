@@ -50,7 +50,7 @@ using CloudColumns = std::array<std::optional<std::size_t>, 4>;
 // `names` has one entry a field, empty where the field is not a single number.
 // Sets *error if there is not exactly one x, y and z, or without them X, Y and
 // Z. The first of "intensity", "scalar_intensity" and "reflectance" that
-// occurs, in whatever case, is the intensity.
+// occurs, in any case, is the intensity.
 std::optional<CloudColumns> FindCloudColumns(
     const std::vector<std::string_view>& names, std::string* error);
 

@@ -63,7 +63,7 @@ std::string ReasonOf(std::string_view ending,
   return reason;
 }
 
-// What ReadCloud would not read back is not written.
+// A cloud that ReadCloud() would not read back is not written.
 bool IsWritable(const PointCloud& cloud, std::string* error) {
   if (cloud.points.cols() == 0) {
     *error = "points: there are none";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Point cloud files: .bin without a header, PLY and PCD, told apart by their
-// ending.
+// Point cloud files: .bin without a header, PLY and PCD, distinguished by the
+// ending of their name.
 //
 // A file is read completely or not at all. A file that is truncated, malformed
 // or without a single finite point is an error; its one-line message names the
@@ -21,34 +21,34 @@ namespace quatro {
 
 // How files without a header are read.
 struct ReadCloudOptions {
-  // Numbers of a point of a .bin, 3 to 64: x, y, z, from four on the intensity,
-  // and what is passed over. 0: told by the numbers (bin_layout.h).
+  // The number of values of a point of a .bin, 3 to 64: x, y, z, the intensity,
+  // and others, which are skipped. 0: inferred from the values (bin_layout.h).
   int point_floats = 0;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 };
 
-// Reads `.bin`, `.ply` or `.pcd`. Returns nullopt and sets *error otherwise.
+// Reads `.bin`, `.ply` or `.pcd`. Returns nullopt and sets *error if it cannot.
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     const ReadCloudOptions& options,
                                     std::string* error);
 
-// With default options.
+// Reads with default options.
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     std::string* error);
 
 // Writes `.bin` (float32 x y z intensity), `.pcd` (binary, float32 x y z) or
 // `.ply` (binary little-endian, double x y z), the last two with a float
-// intensity where there is one. Returns false and sets *error if it can't. A
-// .bin whose intensities are spread as its coordinates are is read again with
-// point_floats = 4 alone.
+// intensity if the cloud has one. Returns false and sets *error if it cannot. A
+// .bin whose intensities vary as much as its coordinates can be read again only
+// with point_floats = 4.
 bool WriteCloud(const PointCloud& cloud,
                 const std::string& path,
                 std::string* error);
 
-// The bytes that WriteCloud() would write there; nullopt with *error set if it
-// could not.
+// The bytes that WriteCloud() would write. Returns nullopt and sets *error if
+// it could not write them.
 std::optional<std::string> FormatCloud(const PointCloud& cloud,
                                        const std::string& path,
                                        std::string* error);

@@ -83,6 +83,47 @@ std::vector<TimPair> FindGatedPairs(const DistinctMatches& matches,
   return gated;
 }
 
+// The matches of the pairs that are inliers. There are hundreds of thousands of
+// pairs if many matches are inliers.
+std::vector<Eigen::Index> MatchesOf(
+    const std::vector<TimPair>& pairs,
+    const Eigen::Array<bool, Eigen::Dynamic, 1>& is_inlier,
+    Eigen::Index num_matches) {
+  std::vector<bool> is_of_inlier(static_cast<std::size_t>(num_matches));
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (!is_inlier[static_cast<Eigen::Index>(k)]) continue;
+    is_of_inlier[static_cast<std::size_t>(pairs[k].first)] = true;
+    is_of_inlier[static_cast<std::size_t>(pairs[k].second)] = true;
+  }
+  std::vector<Eigen::Index> candidates;
+  for (Eigen::Index i = 0; i < num_matches; ++i) {
+    if (is_of_inlier[static_cast<std::size_t>(i)]) candidates.push_back(i);
+  }
+  return candidates;
+}
+
+// Refits the pose to all of its inliers; keeps the refit unless it has fewer
+// inliers. Returns the inliers.
+std::vector<Eigen::Index> Refit(const DistinctMatches& matches,
+                                double noise_bound,
+                                Rigid3* target_from_source) {
+  std::vector<Eigen::Index> inliers = FindInliers(
+      matches.source, matches.target, *target_from_source, noise_bound);
+  const auto again = EstimateYawTranslation(
+      Columns(matches.source, inliers),
+      Columns(matches.target, inliers),
+      Weights::Ones(static_cast<Eigen::Index>(inliers.size())));
+  if (again) {
+    std::vector<Eigen::Index> inliers_again = FindInliers(
+        matches.source, matches.target, again->target_from_source, noise_bound);
+    if (inliers_again.size() >= inliers.size()) {
+      *target_from_source = again->target_from_source;
+      inliers = std::move(inliers_again);
+    }
+  }
+  return inliers;
+}
+
 }  // namespace
 
 bool ArcConsensusOptions::IsValid(std::string* error) const {
@@ -142,17 +183,8 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   }
   summary.num_rotation_inliers = yaw->num_inliers;
 
-  // There are hundreds of thousands of pairs if many matches are inliers.
-  std::vector<bool> agrees(static_cast<std::size_t>(summary.num_matches));
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (!yaw->is_inlier[static_cast<Eigen::Index>(k)]) continue;
-    agrees[static_cast<std::size_t>(pairs[k].first)] = true;
-    agrees[static_cast<std::size_t>(pairs[k].second)] = true;
-  }
-  std::vector<Eigen::Index> candidates;
-  for (Eigen::Index i = 0; i < summary.num_matches; ++i) {
-    if (agrees[static_cast<std::size_t>(i)]) candidates.push_back(i);
-  }
+  const std::vector<Eigen::Index> candidates =
+      MatchesOf(pairs, yaw->is_inlier, summary.num_matches);
   summary.num_consistent = static_cast<Eigen::Index>(candidates.size());
   summary.consistent = InputColumns(matches, candidates);
   Rigid3 target_from_source;
@@ -164,24 +196,8 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
           options.noise_bound)
           ->target_from_source;
 
-  // Refit to all inliers; keep the refit unless it has fewer inliers.
-  std::vector<Eigen::Index> inliers = FindInliers(
-      matches.source, matches.target, target_from_source, options.noise_bound);
-  const auto again = EstimateYawTranslation(
-      Columns(matches.source, inliers),
-      Columns(matches.target, inliers),
-      Weights::Ones(static_cast<Eigen::Index>(inliers.size())));
-  if (again) {
-    std::vector<Eigen::Index> inliers_again =
-        FindInliers(matches.source,
-                    matches.target,
-                    again->target_from_source,
-                    options.noise_bound);
-    if (inliers_again.size() >= inliers.size()) {
-      target_from_source = again->target_from_source;
-      inliers = std::move(inliers_again);
-    }
-  }
+  const std::vector<Eigen::Index> inliers =
+      Refit(matches, options.noise_bound, &target_from_source);
   summary.num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
   summary.translation_inliers = InputColumns(matches, inliers);
   summary.target_from_source = target_from_source;

@@ -25,7 +25,7 @@ std::uint64_t Hash(const Eigen::Vector3d& point) {
   return hash;
 }
 
-// Of the columns in `order`.
+// Takes the columns in the order of `order`.
 DistinctMatches FindDistinct(const PointsRef& source,
                              const PointsRef& target,
                              std::vector<Eigen::Index> order) {

@@ -31,14 +31,14 @@ struct DistinctMatches {
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target);
 
-// Without the matches that a double can't place
+// Leaves out the matches whose coordinates a double cannot resolve
 // (robust/graph/far_matches.h).
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target,
                                     double noise_bound);
 
-// The input columns that the given distinct matches stand for, in ascending
-// order.
+// The input columns of the given distinct matches and their copies, in
+// ascending order.
 std::vector<Eigen::Index> InputColumns(
     const DistinctMatches& matches, const std::vector<Eigen::Index>& selected);
 

@@ -54,6 +54,92 @@ Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
   return cross;
 }
 
+// Matches about their means and in units of D, without what is far from the
+// rest.
+struct ScaledMatches {
+  std::vector<Eigen::Index> columns;  // Distinct matches.
+  Points source;
+  Points target;
+  Eigen::Vector3d source_mean;
+  Eigen::Vector3d target_mean;
+  double extent = 1.0;  // D [m].
+  double delta = 0.0;   // The noise bound over D.
+};
+
+ScaledMatches ScaleMatches(const DistinctMatches& matches,
+                           const FgrOptions& options) {
+  ScaledMatches scaled;
+  scaled.columns =
+      FindNear(matches.source, matches.target, options.noise_bound);
+  Points& p = scaled.source;
+  Points& q = scaled.target;
+  p = Columns(matches.source, scaled.columns);
+  q = Columns(matches.target, scaled.columns);
+  scaled.source_mean = p.rowwise().mean();
+  scaled.target_mean = q.rowwise().mean();
+  p.colwise() -= scaled.source_mean;
+  q.colwise() -= scaled.target_mean;
+  scaled.extent = options.start_scale *
+                  std::sqrt(std::max(p.colwise().squaredNorm().maxCoeff(),
+                                     q.colwise().squaredNorm().maxCoeff()));
+  p /= scaled.extent;
+  q /= scaled.extent;
+  scaled.delta = options.noise_bound / scaled.extent;
+  return scaled;
+}
+
+// Returns the pose of the scaled matches after the last step.
+Rigid3 Iterate(const ScaledMatches& matches,
+               const FgrOptions& options,
+               FgrSummary* summary) {
+  Rigid3 pose;
+  if (options.start_at_plain_fit) {
+    const auto plain = EstimateRigid(
+        matches.source, matches.target, Weights::Ones(matches.source.cols()));
+    if (plain) pose = plain->target_from_source;
+  }
+  // In units of delta^2, so that the schedule ends at 1.
+  const double delta = matches.delta;
+  double mu = std::max(1.0, 1.0 / (delta * delta));
+  FgrNormalEquations equations;
+  while (summary->iterations < options.max_iterations &&
+         !summary->has_converged) {
+    const bool is_exact = GemanMcClure::IsExact(mu);
+    equations = LinearizeFgr(matches.source,
+                             matches.target,
+                             pose,
+                             mu * delta * delta,
+                             options.num_threads);
+    const Eigen::Matrix<double, 6, 1> xi =
+        equations.A.completeOrthogonalDecomposition().solve(equations.b);
+    pose = ComposeLeft(xi, pose);
+    summary->last_step = xi.norm();
+    ++summary->iterations;
+    summary->has_converged =
+        is_exact && summary->last_step <= options.step_tolerance;
+    if (summary->iterations % options.iterations_per_mu == 0) {
+      mu = GemanMcClure::NextMu(mu, options.mu_step);
+    }
+  }
+  summary->mu = mu * options.noise_bound * options.noise_bound;
+  summary->cost = equations.loss * matches.extent * matches.extent;
+  return pose;
+}
+
+// Columns of the distinct matches.
+std::vector<Eigen::Index> FindInliers(const ScaledMatches& matches,
+                                      const Rigid3& pose) {
+  const double limit = matches.delta * matches.delta;
+  const Points errors = matches.target - pose.Apply(matches.source);
+  std::vector<Eigen::Index> inliers;
+  for (Eigen::Index i = 0; i < errors.cols(); ++i) {
+    if (errors.col(i).squaredNorm() <= limit) {
+      inliers.push_back(matches.columns[static_cast<std::size_t>(i)]);
+    }
+  }
+  return inliers;
+}
+
 }  // namespace
 
 bool FgrOptions::IsValid(std::string* error) const {
@@ -156,61 +242,13 @@ FgrSummary SolveFgr(const PointsRef& source,
     return summary;
   }
 
-  // About the means and in units of D, without what is far from the rest.
-  const std::vector<Eigen::Index> near =
-      FindNear(matches.source, matches.target, options.noise_bound);
-  Points p = Columns(matches.source, near);
-  Points q = Columns(matches.target, near);
-  const Eigen::Vector3d source_mean = p.rowwise().mean();
-  const Eigen::Vector3d target_mean = q.rowwise().mean();
-  p.colwise() -= source_mean;
-  q.colwise() -= target_mean;
-  const double extent =
-      options.start_scale *
-      std::sqrt(std::max(p.colwise().squaredNorm().maxCoeff(),
-                         q.colwise().squaredNorm().maxCoeff()));
-  p /= extent;
-  q /= extent;
-  const double delta = options.noise_bound / extent;
-
-  Rigid3 pose;
-  if (options.start_at_plain_fit) {
-    const auto plain = EstimateRigid(p, q, Weights::Ones(p.cols()));
-    if (plain) pose = plain->target_from_source;
-  }
-  // In units of delta^2, so that the schedule ends at 1.
-  double mu = std::max(1.0, 1.0 / (delta * delta));
-  FgrNormalEquations equations;
-  while (summary.iterations < options.max_iterations &&
-         !summary.has_converged) {
-    const bool is_exact = GemanMcClure::IsExact(mu);
-    equations =
-        LinearizeFgr(p, q, pose, mu * delta * delta, options.num_threads);
-    const Eigen::Matrix<double, 6, 1> xi =
-        equations.A.completeOrthogonalDecomposition().solve(equations.b);
-    pose = ComposeLeft(xi, pose);
-    summary.last_step = xi.norm();
-    ++summary.iterations;
-    summary.has_converged =
-        is_exact && summary.last_step <= options.step_tolerance;
-    if (summary.iterations % options.iterations_per_mu == 0) {
-      mu = GemanMcClure::NextMu(mu, options.mu_step);
-    }
-  }
-  summary.mu = mu * options.noise_bound * options.noise_bound;
-  summary.cost = equations.loss * extent * extent;
-  const Rigid3 target_from_source{
-      pose.rotation,
-      extent * pose.translation + target_mean - pose.rotation * source_mean};
-
-  const double limit = delta * delta;
-  const Points errors = q - pose.Apply(p);
-  std::vector<Eigen::Index> inliers;
-  for (Eigen::Index i = 0; i < errors.cols(); ++i) {
-    if (errors.col(i).squaredNorm() <= limit) {
-      inliers.push_back(near[static_cast<std::size_t>(i)]);
-    }
-  }
+  const ScaledMatches scaled = ScaleMatches(matches, options);
+  const Rigid3 pose = Iterate(scaled, options, &summary);
+  const Rigid3 target_from_source{pose.rotation,
+                                  scaled.extent * pose.translation +
+                                      scaled.target_mean -
+                                      pose.rotation * scaled.source_mean};
+  const std::vector<Eigen::Index> inliers = FindInliers(scaled, pose);
   summary.num_consistent = static_cast<Eigen::Index>(inliers.size());
   summary.num_rotation_inliers = summary.num_consistent;
   summary.consistent = InputColumns(matches, inliers);
@@ -226,7 +264,7 @@ FgrSummary SolveFgr(const PointsRef& source,
   const auto rigid = EstimateRigid(Columns(matches.source, inliers),
                                    Columns(matches.target, inliers),
                                    Weights::Ones(summary.num_consistent));
-  if (!rigid || !HoldsRotation(*rigid, options.noise_bound)) {
+  if (!rigid || !IsRotationObservable(*rigid, options.noise_bound)) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
         "the inliers do not constrain the rotation: they are on one line";

@@ -29,8 +29,8 @@
 // 218.
 //
 // A match far from the others (FindNear() in robust/graph/far_matches.h)
-// has no part: one stray coordinate would be D, and its lever would hold the
-// pose.
+// is ignored: one stray coordinate would set D, and its lever would dominate
+// the pose.
 //
 // Source: Zhou, Park and Koltun, "Fast Global Registration", ECCV 2016.
 

@@ -38,8 +38,8 @@ struct PoseBounds {
   double max_translation = std::numeric_limits<double>::infinity();  // [m]
   double max_yaw = M_PI;                                             // [rad]
 
-  // Roll and pitch beside the guess's [rad]. It has an effect only together
-  // with one of the bounds above.
+  // Largest tilt from the guess [rad]. It has an effect only together with one
+  // of the bounds above.
   double max_tilt = 0.0873;
 
   // Which way is up in the target, a unit vector. Register() and
@@ -72,7 +72,7 @@ struct PoseBounds {
                                             const PointsRef& target,
                                             double noise_bound) const;
 
-  // The same bounds on frame_from_source = frame_from_target *
+  // These bounds, on frame_from_source = frame_from_target *
   // target_from_source.
   PoseBounds InFrame(const Rigid3& frame_from_target) const;
 

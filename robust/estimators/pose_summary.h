@@ -30,7 +30,7 @@ enum class PoseTermination {
 // How far the GNC yaw is from the global optimum of the truncated least squares
 // over the yaw of the TIMs (solvers/closed_form/exact_yaw.h).
 struct YawCertificate {
-  std::optional<double> gnc_cost;  // Nullopt if GNC failed.
+  std::optional<double> gnc_cost;  // Not set if GNC failed.
   double optimal_cost = 0.0;
   // gnc_cost - optimal_cost, nonnegative up to rounding.
   std::optional<double> gap;

@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "robust/graph/consistency_graph.h"
 #include "robust/graph/exact_clique.h"
 #include "robust/graph/max_clique.h"
 

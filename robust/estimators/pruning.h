@@ -11,7 +11,7 @@
 
 #include "features/base/stopwatch.h"
 #include "robust/estimators/distinct_matches.h"
-#include "robust/graph/consistency_graph.h"
+#include "robust/graph/consistency_test.h"
 
 namespace quatro {
 

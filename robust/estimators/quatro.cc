@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "robust/estimators/consensus.h"
-#include "robust/estimators/crosscheck.h"
+#include "robust/estimators/decoupled.h"
 #include "robust/estimators/distinct_matches.h"
 #include "robust/estimators/recovery.h"
 #include "robust/gnc/quasi_so3.h"
 #include "robust/gnc/surrogate.h"
 #include "solvers/closed_form/exact_yaw.h"
-#include "solvers/closed_form/translation.h"
 #include "solvers/closed_form/valid_matches.h"
 
 namespace quatro {
@@ -41,33 +40,14 @@ PolishOptions PolishFrom(const QuatroOptions& options) {
   return polish;
 }
 
-template <typename Subproblem>
-GncSummary<YawEstimate> SolveYaw(const Subproblem& subproblem,
-                                 const QuatroOptions& options) {
-  switch (options.surrogate) {
-    case SurrogateType::kGemanMcClure:
-      return SolveGnc<GemanMcClure>(subproblem, options.gnc);
-    case SurrogateType::kWelsch:
-      return SolveGnc<Welsch>(subproblem, options.gnc);
-    case SurrogateType::kTruncatedLeastSquares:
-      break;
-  }
-  return SolveGnc<TruncatedLeastSquares>(subproblem, options.gnc);
-}
-
 // Estimates the yaw by the chosen solver and computes the certificate. Returns
 // nullopt if the TIMs do not constrain the yaw.
 std::optional<double> FindYaw(const QuasiSo3& rotation,
                               const QuatroOptions& options,
                               QuatroSummary* summary) {
   if (options.yaw_solver == YawSolver::kGnc) {
-    if (options.crosscheck) {
-      const CrossChecked<QuasiSo3> checked(rotation);
-      summary->gnc = SolveYaw(checked, options);
-      summary->crosscheck = checked.report();
-    } else {
-      summary->gnc = SolveYaw(rotation, options);
-    }
+    summary->gnc = SolveRotation(
+        rotation, options.surrogate, options.gnc, options.crosscheck, summary);
   }
   const Weights weights = Weights::Ones(rotation.NumMeasurements());
   const Weights bounds =
@@ -134,6 +114,38 @@ std::string NoteMove(const Rigid3& before, const Rigid3& after) {
   return text.str();
 }
 
+// Recovers the translation and polishes the pose, as far as the options ask for
+// it. Returns whether the inliers have to be found again.
+bool ImprovePose(const DistinctMatches& matches,
+                 const ConsistentSet& set,
+                 const QuatroOptions& options,
+                 Rigid3* pose,
+                 QuatroSummary* summary) {
+  Stopwatch stopwatch;
+  if (options.recover_translation) {
+    const Rigid3 unrecovered = *pose;
+    *pose = RecoverTranslation(
+        matches.source, matches.target, *pose, options.noise_bound);
+    summary->notes.push_back({"recovery", NoteMove(unrecovered, *pose)});
+    summary->stage_times.push_back({"recovery", stopwatch.Lap()});
+  }
+  if (options.polish) {
+    const PolishSummary polish = Polish(matches.source,
+                                        matches.target,
+                                        set.columns,
+                                        *pose,
+                                        PolishFrom(options));
+    summary->notes.push_back({"polish", polish.message});
+    if (polish.is_polished) {
+      summary->unpolished_target_from_source = *pose;
+      summary->model = PoseModel::kRigid;
+      *pose = polish.target_from_source;
+    }
+    summary->stage_times.push_back({"polish", stopwatch.Lap()});
+  }
+  return options.recover_translation || options.polish;
+}
+
 }  // namespace
 
 bool QuatroOptions::IsValid(std::string* error) const {
@@ -171,36 +183,25 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   const DistinctMatches matches =
       FindDistinctMatches(source, target, options.noise_bound);
   summary.num_matches = matches.source.cols();
-  const std::vector<Eigen::Index> consistent = FindConsistent(
-      matches, PruningFrom(options), options.num_threads, &summary.stage_times);
-  summary.num_consistent = static_cast<Eigen::Index>(consistent.size());
-  summary.consistent = InputColumns(matches, consistent);
-  const Points p = Columns(matches.source, consistent);
-  const Points q = Columns(matches.target, consistent);
-
+  ConsistentSet set = PruneMatches(
+      matches, PruningFrom(options), options.num_threads, &summary);
   Stopwatch stopwatch;
-  const std::vector<TimPair> pairs = MakeTimPairs(
-      p.cols(), options.tim_layout, options.num_random_tims, options.seed);
-  summary.num_tims = static_cast<Eigen::Index>(pairs.size());
-  if (pairs.empty()) {
-    summary.termination = PoseTermination::kInsufficient;
-    std::ostringstream message;
-    message << "a heading needs two consistent matches; the largest consistent "
-               "set of "
-            << summary.num_matches << " matches has " << summary.num_consistent;
-    summary.message = message.str();
+  ChooseTims(options.tim_layout,
+             options.num_random_tims,
+             options.seed,
+             &set,
+             &summary);
+  if (set.tims.empty()) {
+    EndInsufficient("a heading needs two consistent matches", &summary);
     return summary;
   }
   const QuasiSo3 rotation_problem{
-      ComputeTims(p, pairs),
-      ComputeTims(q, pairs),
+      ComputeTims(set.source, set.tims),
+      ComputeTims(set.target, set.tims),
       options.tim_bound_factor * options.noise_bound};
   const auto yaw = FindYaw(rotation_problem, options, &summary);
-  const Eigen::VectorXd weights = TimWeights(rotation_problem, summary, yaw);
-  if (weights.size() > 0) {
-    summary.match_weights =
-        InputValues(matches, consistent, WeighPoints(pairs, weights, p.cols()));
-  }
+  WeighMatches(
+      matches, set, TimWeights(rotation_problem, summary, yaw), &summary);
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
   if (options.yaw_solver == YawSolver::kGnc) {
     summary.notes.push_back(
@@ -218,50 +219,15 @@ QuatroSummary SolveQuatro(const PointsRef& source,
   summary.yaw = *yaw;
   summary.model = PoseModel::kYawTranslation;
 
-  const Eigen::Matrix3d rotation = RotationZ(*yaw);
-  const auto translation =
-      EstimateTranslation(rotation * p, q, options.noise_bound);
-  Rigid3 pose{rotation, translation->target_from_source};
   std::vector<Eigen::Index> inliers;
-  for (std::size_t k = 0; k < consistent.size(); ++k) {
-    if (translation->is_inlier[static_cast<Eigen::Index>(k)]) {
-      inliers.push_back(consistent[k]);
-    }
-  }
+  Rigid3 pose =
+      AddTranslation(set, RotationZ(*yaw), options.noise_bound, &inliers);
   summary.stage_times.push_back({"translation", stopwatch.Lap()});
-
-  if (options.recover_translation) {
-    const Rigid3 unrecovered = pose;
-    pose = RecoverTranslation(
-        matches.source, matches.target, pose, options.noise_bound);
-    summary.notes.push_back({"recovery", NoteMove(unrecovered, pose)});
-    summary.stage_times.push_back({"recovery", stopwatch.Lap()});
-  }
-  if (options.polish) {
-    const PolishSummary polish = Polish(
-        matches.source, matches.target, consistent, pose, PolishFrom(options));
-    summary.notes.push_back({"polish", polish.message});
-    if (polish.is_polished) {
-      summary.unpolished_target_from_source = pose;
-      summary.model = PoseModel::kRigid;
-      pose = polish.target_from_source;
-    }
-    summary.stage_times.push_back({"polish", stopwatch.Lap()});
-  }
-  if (options.recover_translation || options.polish) {
+  if (ImprovePose(matches, set, options, &pose, &summary)) {
     inliers =
         FindInliers(matches.source, matches.target, pose, options.noise_bound);
   }
-  if (options.crosscheck) {
-    CrosscheckPose(Columns(matches.source, inliers),
-                   Columns(matches.target, inliers),
-                   &summary.crosscheck);
-  }
-  summary.num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
-  summary.translation_inliers = InputColumns(matches, inliers);
-  summary.target_from_source = pose;
-  summary.termination = PoseTermination::kSolved;
-  summary.message = "solved";
+  EndSolved(matches, pose, inliers, options.crosscheck, &summary);
   if (summary.certificate && summary.is_yaw_exact &&
       options.yaw_solver == YawSolver::kGnc) {
     summary.message =

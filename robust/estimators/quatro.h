@@ -40,7 +40,7 @@
 #include "robust/estimators/tims.h"
 #include "robust/gnc/gnc.h"
 #include "robust/gnc/surrogate.h"
-#include "robust/graph/consistency_graph.h"
+#include "robust/graph/consistency_test.h"
 #include "solvers/closed_form/yaw.h"
 
 namespace quatro {

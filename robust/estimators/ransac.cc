@@ -219,12 +219,29 @@ std::optional<Best> Search(const Problem& problem,
 }
 
 // Whether the inliers constrain the pose. A single match with normals does.
-bool AreHeld(const Problem& problem,
-             const std::vector<Eigen::Index>& inliers,
-             const MinimalPoseOptions& minimal) {
+bool ConstrainPose(const Problem& problem,
+                   const std::vector<Eigen::Index>& inliers,
+                   const MinimalPoseOptions& minimal) {
   if (minimal.sample == MinimalSample::kPointAndNormal) return true;
   const auto fit = FitTo(problem, inliers, minimal.sample);
   return fit && fit->least_turn > minimal.noise_bound * minimal.noise_bound;
+}
+
+bool AreValidNormals(const PointsRef& source,
+                     const PointsRef& target,
+                     const MatchedNormals* normals,
+                     std::string* error) {
+  if (normals == nullptr) {
+    *error = "samples of a point and its normal need normals";
+  } else if (normals->source.cols() != source.cols() ||
+             normals->target.cols() != target.cols()) {
+    *error = "there are not as many normals as matches";
+  } else if (!normals->source.allFinite() || !normals->target.allFinite()) {
+    *error = "a normal is not finite";
+  } else {
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -273,21 +290,10 @@ RansacSummary SolveRansac(const PointsRef& source,
       !AreValidMatches(source, target, &summary.message)) {
     return summary;
   }
-  if (sample != MinimalSample::kPointAndNormal) {
-    normals = nullptr;
-  } else if (!normals) {
-    summary.message = "samples of a point and its normal need normals";
+  if (sample != MinimalSample::kPointAndNormal) normals = nullptr;
+  if (sample == MinimalSample::kPointAndNormal &&
+      !AreValidNormals(source, target, normals, &summary.message)) {
     return summary;
-  } else {
-    if (normals->source.cols() != source.cols() ||
-        normals->target.cols() != target.cols()) {
-      summary.message = "there are not as many normals as matches";
-      return summary;
-    }
-    if (!normals->source.allFinite() || !normals->target.allFinite()) {
-      summary.message = "a normal is not finite";
-      return summary;
-    }
   }
 
   Stopwatch stopwatch;
@@ -311,9 +317,10 @@ RansacSummary SolveRansac(const PointsRef& source,
   summary.consistent = InputColumns(problem.matches, inliers);
   summary.stage_times.push_back({"ransac", stopwatch.Lap()});
   const bool are_too_few = summary.num_consistent < num_needed;
-  // Of matches none of whose samples holds a pose.
-  const bool are_all_alike = are_too_few && summary.num_matches >= num_needed &&
-                             !AreHeld(problem, problem.near, options.minimal);
+  // No sample of such matches constrains a pose.
+  const bool are_all_alike =
+      are_too_few && summary.num_matches >= num_needed &&
+      !ConstrainPose(problem, problem.near, options.minimal);
   if (are_too_few && !are_all_alike) {
     std::ostringstream message;
     message << "a pose needs at least " << num_needed
@@ -322,7 +329,7 @@ RansacSummary SolveRansac(const PointsRef& source,
     summary.message = message.str();
     return summary;
   }
-  if (are_all_alike || !AreHeld(problem, inliers, options.minimal)) {
+  if (are_all_alike || !ConstrainPose(problem, inliers, options.minimal)) {
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
         sample == MinimalSample::kThreePoints

@@ -24,7 +24,8 @@ inline double LeastTurn(const RigidEstimate& rigid) {
 }
 
 // Whether the rotation about every axis is observable above the noise.
-inline bool HoldsRotation(const RigidEstimate& rigid, double noise_bound) {
+inline bool IsRotationObservable(const RigidEstimate& rigid,
+                                 double noise_bound) {
   return LeastTurn(rigid) > noise_bound * noise_bound;
 }
 

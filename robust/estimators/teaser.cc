@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "robust/estimators/crosscheck.h"
+#include "robust/estimators/decoupled.h"
 #include "robust/estimators/distinct_matches.h"
 #include "robust/gnc/so3.h"
 #include "robust/gnc/surrogate.h"
@@ -103,40 +103,25 @@ TeaserSummary SolveTeaser(const PointsRef& source,
   pruning.method = options.pruning;
   pruning.time_limit_seconds = options.clique_time_limit_seconds;
   pruning.consistency.bound = 2.0 * options.noise_bound;
-  const std::vector<Eigen::Index> consistent = FindConsistent(
-      matches, pruning, options.num_threads, &summary.stage_times);
-  summary.num_consistent = static_cast<Eigen::Index>(consistent.size());
-  summary.consistent = InputColumns(matches, consistent);
+  ConsistentSet set =
+      PruneMatches(matches, pruning, options.num_threads, &summary);
   if (summary.num_consistent < kNumNeeded) {
-    summary.termination = PoseTermination::kInsufficient;
-    std::ostringstream message;
-    message << "a rotation needs three consistent matches; the largest "
-               "consistent set of "
-            << summary.num_matches << " matches has " << summary.num_consistent;
-    summary.message = message.str();
+    EndInsufficient("a rotation needs three consistent matches", &summary);
     return summary;
   }
   stopwatch.Lap();
 
-  const Points p = Columns(matches.source, consistent);
-  const Points q = Columns(matches.target, consistent);
-  const auto pairs =
-      MakeTimPairs(p.cols(), options.tim_layout, 10 * p.cols(), options.seed);
-  summary.num_tims = static_cast<Eigen::Index>(pairs.size());
-  const So3 rotation_problem{
-      ComputeTims(p, pairs), ComputeTims(q, pairs), 2.0 * options.noise_bound};
-  if (options.crosscheck) {
-    const CrossChecked<So3> checked(rotation_problem);
-    summary.gnc = SolveGnc<TruncatedLeastSquares>(checked, options.gnc);
-    summary.crosscheck = checked.report();
-  } else {
-    summary.gnc =
-        SolveGnc<TruncatedLeastSquares>(rotation_problem, options.gnc);
-  }
-  if (summary.gnc.weights.size() > 0) {
-    summary.match_weights = InputValues(
-        matches, consistent, WeighPoints(pairs, summary.gnc.weights, p.cols()));
-  }
+  ChooseTims(
+      options.tim_layout, 10 * set.source.cols(), options.seed, &set, &summary);
+  const So3 rotation_problem{ComputeTims(set.source, set.tims),
+                             ComputeTims(set.target, set.tims),
+                             2.0 * options.noise_bound};
+  summary.gnc = SolveRotation(rotation_problem,
+                              SurrogateType::kTruncatedLeastSquares,
+                              options.gnc,
+                              options.crosscheck,
+                              &summary);
+  WeighMatches(matches, set, summary.gnc.weights, &summary);
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
   summary.notes.push_back(
       {"rotation",
@@ -152,26 +137,12 @@ TeaserSummary SolveTeaser(const PointsRef& source,
   summary.num_rotation_inliers =
       (summary.gnc.squared_residuals.array() <= 1.0).count();
 
-  const Eigen::Matrix3d& rotation = summary.gnc.estimate->target_from_source;
-  const auto translation =
-      EstimateTranslation(rotation * p, q, options.noise_bound);
   std::vector<Eigen::Index> inliers;
-  for (std::size_t k = 0; k < consistent.size(); ++k) {
-    if (translation->is_inlier[static_cast<Eigen::Index>(k)]) {
-      inliers.push_back(consistent[k]);
-    }
-  }
-  if (options.crosscheck) {
-    CrosscheckPose(Columns(matches.source, inliers),
-                   Columns(matches.target, inliers),
-                   &summary.crosscheck);
-  }
-  summary.num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
-  summary.translation_inliers = InputColumns(matches, inliers);
-  summary.target_from_source =
-      Rigid3{rotation, translation->target_from_source};
-  summary.termination = PoseTermination::kSolved;
-  summary.message = "solved";
+  const Rigid3 pose = AddTranslation(set,
+                                     summary.gnc.estimate->target_from_source,
+                                     options.noise_bound,
+                                     &inliers);
+  EndSolved(matches, pose, inliers, options.crosscheck, &summary);
   summary.stage_times.push_back({"translation", stopwatch.Lap()});
   return summary;
 }

@@ -92,19 +92,6 @@ class CeresSubproblem {
   mutable std::string error_;
 };
 
-GncSummary<CeresSubproblem::Estimate> RunLoop(const CeresSubproblem& subproblem,
-                                              const CeresGncOptions& options) {
-  switch (options.surrogate) {
-    case SurrogateType::kGemanMcClure:
-      return SolveGnc<GemanMcClure>(subproblem, options.gnc);
-    case SurrogateType::kWelsch:
-      return SolveGnc<Welsch>(subproblem, options.gnc);
-    case SurrogateType::kTruncatedLeastSquares:
-      break;
-  }
-  return SolveGnc<TruncatedLeastSquares>(subproblem, options.gnc);
-}
-
 }  // namespace
 
 CeresGncSummary SolveCeresGnc(ceres::Problem* problem,
@@ -136,7 +123,7 @@ CeresGncSummary SolveCeresGnc(ceres::Problem* problem,
       *problem, candidates, left_out, options.evaluation_callback);
   const CeresSubproblem subproblem(
       &weighted, std::move(squared_bounds), options, &summary);
-  auto gnc = RunLoop(subproblem, options);
+  auto gnc = SolveGnc(options.surrogate, subproblem, options.gnc);
 
   summary.termination = gnc.termination;
   summary.message = gnc.IsUsable() ? gnc.message : subproblem.error();

@@ -27,11 +27,11 @@ struct CeresGncOptions {
   GncOptions gnc;
 
   // Options of each inner solve. Callbacks are called in each, and a time limit
-  // holds for each separately.
+  // applies to each separately.
   ceres::Solver::Options solver;
 
-  // Blocks that may be outliers. Nullopt: all blocks that are in neither list
-  // below.
+  // Blocks that may be outliers. If not set: all blocks that are in neither
+  // list below.
   std::optional<std::vector<ceres::ResidualBlockId>> candidates;
   std::vector<ceres::ResidualBlockId> known_inliers;
   std::vector<ceres::ResidualBlockId> known_outliers;

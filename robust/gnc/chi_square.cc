@@ -8,11 +8,6 @@
 
 namespace quatro {
 
-double ChiSquareTail(double x, int degrees_of_freedom) {
-  const boost::math::chi_squared distribution(degrees_of_freedom);
-  return boost::math::cdf(boost::math::complement(distribution, x));
-}
-
 double ChiSquareQuantile(double probability, int degrees_of_freedom) {
   const boost::math::chi_squared distribution(degrees_of_freedom);
   return boost::math::quantile(distribution, probability);

@@ -13,10 +13,6 @@
 
 namespace quatro {
 
-// The probability that a chi-square variable of n degrees of freedom exceeds
-// x >= 0.
-double ChiSquareTail(double x, int degrees_of_freedom);
-
 // q of equation (1). Requires 0 < probability < 1 and degrees_of_freedom >= 1.
 double ChiSquareQuantile(double probability, int degrees_of_freedom);
 

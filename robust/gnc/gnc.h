@@ -176,6 +176,22 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
   return summary;
 }
 
+// Runs the loop with the surrogate that `surrogate` names.
+template <typename Subproblem>
+GncSummary<typename Subproblem::Estimate> SolveGnc(SurrogateType surrogate,
+                                                   const Subproblem& subproblem,
+                                                   const GncOptions& options) {
+  switch (surrogate) {
+    case SurrogateType::kGemanMcClure:
+      return SolveGnc<GemanMcClure>(subproblem, options);
+    case SurrogateType::kWelsch:
+      return SolveGnc<Welsch>(subproblem, options);
+    case SurrogateType::kTruncatedLeastSquares:
+      break;
+  }
+  return SolveGnc<TruncatedLeastSquares>(subproblem, options);
+}
+
 }  // namespace quatro
 
 #endif  // QUATRO_ROBUST_GNC_GNC_H_

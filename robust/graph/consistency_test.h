@@ -21,7 +21,7 @@
 
 namespace quatro {
 
-// The lengths that must agree.
+// The lengths that two consistent matches must share.
 enum class ConsistencyTest { kLength, kPlanar, kPlanarAndHeight };
 
 // The test and its tolerances.

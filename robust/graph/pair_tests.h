@@ -9,7 +9,7 @@
 //
 // The relative rounding error of the difference of squares is that of the
 // difference of lengths, 1e-7 of the lengths, so squaring costs no accuracy.
-// Likewise for the heights,
+// The test of the heights is
 //
 //   h <= max(a, b) sin(tilt)   <=>   h |h| <= max(a^2, b^2) sin^2(tilt),   (2)
 //

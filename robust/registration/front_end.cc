@@ -86,6 +86,62 @@ MatchedPoints PointsOf(const std::vector<Match>& matches,
   return points;
 }
 
+// Runs body(0) and body(1) at the same time if there are two threads.
+template <typename Body>
+void ForBoth(int num_threads, const Body& body) {
+  ParallelFor(num_threads, 2, 1, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index i = begin; i < end; ++i) {
+      body(static_cast<std::size_t>(i));
+    }
+  });
+}
+
+// The voxel means of source and target.
+std::optional<std::array<Points, 2>> SampleBoth(
+    const std::array<const PointCloud*, 2>& given,
+    double voxel_size,
+    int num_threads,
+    std::string* error) {
+  std::array<std::optional<Points>, 2> voxels;
+  std::array<std::string, 2> errors;
+  ForBoth(num_threads, [&](std::size_t i) {
+    voxels[i] = SampleVoxels(given[i]->points, voxel_size, &errors[i]);
+  });
+  for (const std::size_t i : {0u, 1u}) {
+    if (voxels[i]) continue;
+    *error = (i == 0 ? "source: " : "target: ") + errors[i];
+    return std::nullopt;
+  }
+  return std::array<Points, 2>{std::move(*voxels[0]), std::move(*voxels[1])};
+}
+
+// Describes both clouds at once, each with half of the threads: the part of one
+// that a single thread does is done beside that of the other.
+std::array<Fpfh, 2> DescribeBoth(
+    const std::array<Points, 2>& voxels,
+    const std::array<const Eigen::Vector3d*, 2>& up,
+    const FrontEndOptions& options,
+    int num_threads,
+    MatchedClouds* clouds) {
+  const std::array<DescribedCloud*, 2> described = {&clouds->source,
+                                                    &clouds->target};
+  const int num_threads_to_use = NumThreadsToUse(num_threads);
+  const std::array<int, 2> num_threads_of = {
+      (num_threads_to_use + 1) / 2, std::max(1, num_threads_to_use / 2)};
+  std::array<Fpfh, 2> fpfh;
+  ForBoth(num_threads, [&](std::size_t i) {
+    fpfh[i] =
+        Describe(voxels[i], *up[i], options, num_threads_of[i], described[i]);
+  });
+  if (!options.describe) return fpfh;
+  for (const std::size_t i : {0u, 1u}) {
+    fpfh[i] =
+        options.describe(voxels[i], described[i]->normals, options.fpfh_radius);
+    CHECK_EQ(fpfh[i].cols(), voxels[i].cols());
+  }
+  return fpfh;
+}
+
 }  // namespace
 
 bool FrontEndOptions::IsValid(std::string* error) const {
@@ -151,60 +207,26 @@ MatchedClouds MatchClouds(
     if (progress) progress(clouds.stage_times.back());
   };
 
-  // Both at once, by half of the threads each: what either does by one thread
-  // alone is done beside the other's.
-  std::array<std::optional<Points>, 2> voxels;
-  std::array<std::string, 2> errors;
-  const auto for_both = [&](const auto& body) {
-    ParallelFor(num_threads, 2, 1, [&](Eigen::Index begin, Eigen::Index end) {
-      for (Eigen::Index i = begin; i < end; ++i) {
-        body(static_cast<std::size_t>(i));
-      }
-    });
-  };
   const std::array<const PointCloud*, 2> given = {&source, &target};
-  for_both([&](std::size_t i) {
-    voxels[i] = SampleVoxels(given[i]->points, options.voxel_size, &errors[i]);
-  });
-  for (const std::size_t i : {0u, 1u}) {
-    if (voxels[i]) continue;
-    clouds.error = (i == 0 ? "source: " : "target: ") + errors[i];
-    return clouds;
-  }
-  const auto& [source_voxels, target_voxels] = voxels;
+  const auto voxels =
+      SampleBoth(given, options.voxel_size, num_threads, &clouds.error);
+  if (!voxels) return clouds;
   finish_stage("voxels");
-
-  const std::array<DescribedCloud*, 2> described = {&clouds.source,
-                                                    &clouds.target};
-  const std::array<const Eigen::Vector3d*, 2> up = {&source_up, &target_up};
-  const int num_threads_to_use = NumThreadsToUse(num_threads);
-  const std::array<int, 2> num_threads_of = {
-      (num_threads_to_use + 1) / 2, std::max(1, num_threads_to_use / 2)};
-  std::array<Fpfh, 2> fpfh;
-  for_both([&](std::size_t i) {
-    fpfh[i] =
-        Describe(*voxels[i], *up[i], options, num_threads_of[i], described[i]);
-  });
-  if (options.describe) {
-    for (const std::size_t i : {0u, 1u}) {
-      fpfh[i] = options.describe(
-          *voxels[i], described[i]->normals, options.fpfh_radius);
-      CHECK_EQ(fpfh[i].cols(), voxels[i]->cols());
-    }
-  }
+  const std::array<Fpfh, 2> fpfh = DescribeBoth(
+      *voxels, {&source_up, &target_up}, options, num_threads, &clouds);
   finish_stage("features");
-
+  const auto& [source_voxels, target_voxels] = *voxels;
   std::vector<Match> matches =
       MatchMutualNearest(fpfh[0], fpfh[1], num_threads);
   clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
-  clouds.mutual_matches = PointsOf(matches, *source_voxels, *target_voxels);
+  clouds.mutual_matches = PointsOf(matches, source_voxels, target_voxels);
   if (options.tuple_test) {
     TupleTestOptions tuple = options.tuple;
     tuple.seed = seed;
     tuple.num_threads = num_threads;
-    matches = FilterByTupleTest(matches, *source_voxels, *target_voxels, tuple);
+    matches = FilterByTupleTest(matches, source_voxels, target_voxels, tuple);
   }
-  MatchedPoints tested = PointsOf(matches, *source_voxels, *target_voxels);
+  MatchedPoints tested = PointsOf(matches, source_voxels, target_voxels);
   clouds.matched_source = std::move(tested.source);
   clouds.matched_target = std::move(tested.target);
   finish_stage("matching");

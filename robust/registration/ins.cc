@@ -75,7 +75,8 @@ void Fuse(const PointsRef& source,
   const double match_std =
       ins.match_std > 0.0 ? ins.match_std : noise_bound / kSigmasInBound;
   VerticalPrior prior;
-  prior.angle_std = std::sqrt(2.0) * ins.attitude_std;  // Of both attitudes.
+  prior.angle_std =
+      std::sqrt(2.0) * ins.attitude_std;  // Both attitudes have errors.
   const Rigid3 start = *summary->target_from_source;
   bool is_refined = false;
   std::optional<Rigid3> fused;

@@ -20,7 +20,7 @@ void TakeBack(const LevelFrames& frames, std::optional<Rigid3>* pose) {
   if (*pose) TakeBack(frames, &**pose);
 }
 
-// Of rotation and translation along the axes of the target.
+// Rotation and translation are along the axes of the target.
 void TakeBack(const LevelFrames& frames, Matrix6* matrix) {
   Matrix6 back = Matrix6::Zero();
   back.topLeftCorner<3, 3>() = frames.level_from_target.transpose();

@@ -18,7 +18,7 @@
 
 namespace quatro {
 
-// What a method works on.
+// The input of a method.
 enum class MethodInput {
   kMatches,        // Matched points, of clouds or by themselves.
   kMatchedClouds,  // Matched points and the clouds that they come from.

@@ -1,67 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The registry of options: each has a name, a type, a unit or range, a sentence
-// that describes it, and the field that it sets. Flags of programs, arguments
-// in Python, JSON and help texts are all made from these lists.
+// The registry of options (robust/registration/option.h). Flags of programs,
+// arguments in Python, JSON and help texts are all made from these lists.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_OPTION_LIST_H_
 #define QUATRO_ROBUST_REGISTRATION_OPTION_LIST_H_
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <variant>
 #include <vector>
 
+#include "robust/registration/option.h"
 #include "robust/registration/options.h"
 #include "solvers/local/local_alignment.h"
 
 namespace quatro {
-
-// One of several names.
-struct Choice {
-  std::vector<std::string> names;
-  std::function<std::size_t()> get;  // Index of the name that is chosen.
-  std::function<void(std::size_t)> set;
-};
-
-// Roll, pitch and yaw [rad].
-struct AttitudeField {
-  Attitude* attitude;
-};
-
-// Degrees for users, radians in the field.
-struct DegreesField {
-  double* radians;
-};
-
-// An option, and the field behind it, which must outlive it.
-struct Option {
-  std::string name;
-  std::string range;  // Unit, or the values that are allowed.
-  std::string text;   // A phrase, without a period at its end.
-  std::variant<bool*,
-               int*,
-               std::int64_t*,
-               std::uint64_t*,
-               double*,
-               Eigen::Vector3d*,
-               Rigid3*,
-               AttitudeField,
-               DegreesField,
-               Choice>
-      field;
-
-  // "[m], > 0: edge of a voxel", with the names of a choice.
-  std::string Describe() const;
-
-  // Sets the field from a flag's text: a number, "on" or "off", a name, three
-  // numbers, or a pose as the 12 or 16 numbers of its rows, with commas between
-  // them. Returns false and sets *error, which
-  // names the option, for any other text. Ranges are the library's to check.
-  bool Parse(const std::string& text, std::string* error) const;
-};
 
 // Options in the order of help texts.
 using OptionList = std::vector<Option>;
@@ -76,7 +27,7 @@ OptionList SearchOptionList(RegistrationOptions* options);
 OptionList InsOptionList(RegistrationOptions* options);
 OptionList BoundsOptionList(RegistrationOptions* options);
 
-// Options of the estimators. Those of GNC are not among those of the exact yaw.
+// Options of the estimators. The exact yaw has no options of GNC.
 OptionList QuatroOptionList(RegistrationOptions* options);
 OptionList QuatroExactOptionList(RegistrationOptions* options);
 OptionList ArcConsensusOptionList(RegistrationOptions* options);

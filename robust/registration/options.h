@@ -84,11 +84,11 @@ struct RegistrationOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The same with all lengths of the front end, the noise bound, the covariance
+// Returns the options with all lengths of the front end, the noise bound, the covariance
 // and the refinement times `factor` > 0. The bounds on the pose are as given.
 RegistrationOptions ScaledBy(double factor, RegistrationOptions options);
 
-// The same with seed, threads and noise bound handed down to every part.
+// Returns the options with seed, threads and noise bound set in every part.
 RegistrationOptions WithSharedValues(RegistrationOptions options);
 
 }  // namespace quatro

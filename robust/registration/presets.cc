@@ -73,7 +73,7 @@ Eigen::Index CountVoxels(const PointCloud& cloud, double voxel_size) {
 // spacing.
 double SizeForWantedVoxels(const PointCloud& cloud) {
   constexpr double kUsualMin = 0.01;  // [m]
-  constexpr double kMinShare = 1e-4;  // Of the extent of a smaller cloud.
+  constexpr double kMinShare = 1e-4;  // Share of the extent of a smaller cloud.
   double low = std::log(kUsualMin);
   double high = std::log(10.0);
   const double extent =

@@ -8,9 +8,9 @@
 //
 //   the alignment converged and the surfaces constrain every direction,
 //   the pose moved by at most max_translation and max_rotation, and
-//   it agrees with the matches: let n be the number of matches with residual
-//   |q_i - R p_i - t| of at most two noise bounds. The refined pose must keep
-//   at least min_kept_matches n of the unrefined pose.
+//   it is consistent with the matches: let n be the number of matches with
+//   residual |q_i - R p_i - t| of at most two noise bounds. The refined pose
+//   must keep at least min_kept_matches n of the unrefined pose.
 //
 // Otherwise the unrefined pose is kept, and the message says why.
 
@@ -40,7 +40,7 @@ struct RefinementOptions {
   double epsilon = 1e-3;    // For G-ICP and VG-ICP.
   double voxel_size = 1.0;  // For VG-ICP [m].
 
-  double max_translation = 2.0;   // Of the source's middle [m].
+  double max_translation = 2.0;   // Largest motion of the middle [m].
   double max_rotation = 0.3;      // [rad]
   double min_kept_matches = 0.5;  // In [0, 1].
 
@@ -61,7 +61,7 @@ struct RefinementSummary {
 
   // The motion from the unrefined to the refined pose, accepted or not; 0
   // without a refined pose.
-  double moved_translation = 0.0;  // Of the source's middle [m].
+  double moved_translation = 0.0;  // Motion of the source's middle [m].
   double moved_rotation = 0.0;     // [rad]
 
   // Sets the motion from unrefined_target_from_source to `found`.

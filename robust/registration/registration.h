@@ -33,7 +33,7 @@ RegistrationSummary Register(const PointCloud& source,
                              const PointCloud& target,
                              const RegistrationOptions& options);
 
-// The same from matched points. Without clouds there is no geometric evidence
+// Registers from matched points. Without clouds there is no geometric evidence
 // and no refinement: the verdict rests on the matches alone.
 RegistrationSummary RegisterMatches(const Matches& matches,
                                     const RegistrationOptions& options);

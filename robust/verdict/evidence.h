@@ -43,7 +43,7 @@ struct EvidenceOptions {
 
   GeometricRivalOptions rival;
 
-  // The same distance [m].
+  // This distance in meters.
   double MaxDistance(double voxel_size) const {
     return max_distance_in_voxels * voxel_size;
   }
@@ -70,7 +70,7 @@ struct FreeSpace {
 // The evidence that two clouds give for and against a pose.
 struct GeometricEvidence {
   double structure_overlap = 0.0;  // In [0, 1].
-  // Of the overlapping points [voxel sizes]; 0 if there are none.
+  // Median over the overlapping points [voxel sizes]; 0 if there are none.
   double median_residual = 0.0;
 
   FreeSpace free_space;

@@ -39,7 +39,7 @@ struct SurfaceObservabilityOptions {
   bool IsValid(std::string* error) const;
 };
 
-// What the surfaces constrain, direction by direction.
+// Which directions the surfaces constrain, and how well.
 struct SurfaceObservability {
   // (1): rotations in m^2, translations without unit.
   Matrix6 information = Matrix6::Zero();

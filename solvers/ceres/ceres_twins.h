@@ -83,7 +83,7 @@ CeresTwin<YawTranslationEstimate> SolveYawTranslationByCeres(
     const WeightsRef& weights,
     const Rigid3& initial_target_from_source = {});
 
-// Solves (5) of solvers/closed_form/rotation.h from the given start.
+// Solves (4) of solvers/closed_form/rotation.h from the given start.
 CeresTwin<RigidEstimate> SolvePoseByCeres(
     const PointsRef& source,
     const PointsRef& target,

@@ -30,7 +30,7 @@ struct CenteredMatches {
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();  // R mean(p) [m]
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double extent = 1.0;    // RMS of |x_i|, or 1 if zero [m].
-  double rounding = 0.0;  // Of the coordinates as given [m].
+  double rounding = 0.0;  // Rounding of the coordinates as given [m].
 };
 
 CenteredMatches Centered(const PointsRef& source,
@@ -299,6 +299,62 @@ double EstimateSigma(const CenteredMatches& matches,
   return std::sqrt((matches.y - matches.x).squaredNorm() / num_spare);
 }
 
+// "2 matches constrain 5 of 6 degrees of freedom; ..."
+std::string DescribeMissing(Eigen::Index num_matches,
+                            Eigen::Index num_freedoms,
+                            const PoseCovariance& result) {
+  std::ostringstream message;
+  message << num_matches << " matches constrain " << result.rank << " of "
+          << num_freedoms << " degrees of freedom";
+  for (const UnobservableDirection& direction : result.unobservable) {
+    message << "; " << direction.Describe();
+  }
+  return message.str();
+}
+
+// Adds the directions whose standard deviation exceeds the limit.
+void AddUncertain(const std::vector<DirectionInformation>& directions,
+                  const Matrix6& covariance,
+                  const PoseCovarianceOptions& options,
+                  PoseCovariance* result) {
+  for (const DirectionInformation& direction : directions) {
+    const double deviation = StandardDeviation(direction, covariance);
+    const double limit = direction.freedom == Freedom::kRotation
+                             ? options.max_rotation_std
+                             : options.max_translation_std;
+    if (deviation <= limit) continue;
+    result->unobservable.push_back({direction.freedom,
+                                    UnobservableReason::kUncertain,
+                                    direction.axis,
+                                    direction.point,
+                                    deviation});
+  }
+}
+
+// Equation (3).
+Matrix6 FromCenter(const Eigen::Vector3d& arm) {
+  Matrix6 from_center = Matrix6::Identity();
+  for (int i = 0; i < 3; ++i) {
+    from_center.block<3, 1>(3, i) = arm.cross(Eigen::Vector3d::Unit(i));
+  }
+  return from_center;
+}
+
+// Appends the two axes of the tilt, which was assumed and not estimated.
+void AddAssumedTilt(const Eigen::Vector3d& center,
+                    const PoseCovarianceOptions& options,
+                    PoseCovariance* result) {
+  const Eigen::Matrix3d target_from_level =
+      RotationBetween(Eigen::Vector3d::UnitZ(), options.up_in_target);
+  for (const int axis : {0, 1}) {
+    result->unobservable.push_back({Freedom::kRotation,
+                                    UnobservableReason::kAssumed,
+                                    target_from_level.col(axis),
+                                    center,
+                                    options.tilt_std});
+  }
+}
+
 }  // namespace
 
 bool CovarianceOptions::IsValid(std::string* error) const {
@@ -394,24 +450,10 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
     }
   }
   if (options.model == PoseModel::kYawTranslation) {
-    const Eigen::Matrix3d target_from_level =
-        RotationBetween(Eigen::Vector3d::UnitZ(), options.up_in_target);
-    for (const int axis : {0, 1}) {
-      result.unobservable.push_back({Freedom::kRotation,
-                                     UnobservableReason::kAssumed,
-                                     target_from_level.col(axis),
-                                     matches.center,
-                                     options.tilt_std});
-    }
+    AddAssumedTilt(matches.center, options, &result);
   }
   if (!is_observable || !estimated || result.rank < B.cols()) {
-    std::ostringstream message;
-    message << source.cols() << " matches constrain " << result.rank << " of "
-            << B.cols() << " degrees of freedom";
-    for (const UnobservableDirection& direction : result.unobservable) {
-      message << "; " << direction.Describe();
-    }
-    result.message = message.str();
+    result.message = DescribeMissing(source.cols(), B.cols(), result);
     return result;
   }
 
@@ -421,22 +463,8 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
     estimated->topLeftCorner<3, 3>() += TiltCovariance(information, options);
   }
   *estimated = (0.5 * (*estimated + estimated->transpose())).eval();
-  for (const DirectionInformation& direction : directions) {
-    const double deviation = StandardDeviation(direction, *estimated);
-    const double limit = direction.freedom == Freedom::kRotation
-                             ? options.max_rotation_std
-                             : options.max_translation_std;
-    if (deviation <= limit) continue;
-    result.unobservable.push_back({direction.freedom,
-                                   UnobservableReason::kUncertain,
-                                   direction.axis,
-                                   direction.point,
-                                   deviation});
-  }
-  Matrix6 from_center = Matrix6::Identity();  // Equation (3).
-  for (int i = 0; i < 3; ++i) {
-    from_center.block<3, 1>(3, i) = matches.arm.cross(Eigen::Vector3d::Unit(i));
-  }
+  AddUncertain(directions, *estimated, options, &result);
+  const Matrix6 from_center = FromCenter(matches.arm);
   result.covariance_at_center = *estimated;
   const Matrix6 covariance = from_center * *estimated * from_center.transpose();
   result.covariance = 0.5 * (covariance + covariance.transpose());

@@ -22,8 +22,8 @@
 // singular value decomposition that reveals the rank.
 //
 // Unobservable directions are listed. If nothing constrains a direction, or if
-// all points are practically on one axis, there is no covariance, because any
-// number would be wrong.
+// all points are practically on one axis, there is no covariance, because no
+// number would be meaningful.
 //
 // The model ignores correlated errors of matches (neighbors in a scan have
 // them, and so does a biased sensor) and estimators that do not minimize (1);
@@ -79,7 +79,7 @@ struct CovarianceOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The same, and what the estimator decides.
+// All options, including those that depend on the estimator.
 struct PoseCovarianceOptions : CovarianceOptions {
   PoseModel model = PoseModel::kRigid;
 
@@ -88,7 +88,7 @@ struct PoseCovarianceOptions : CovarianceOptions {
   // For kYawTranslation: the vertical, a unit vector.
   Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
 
-  // For kRigid: a term of (1) beside the matches
+  // For kRigid: a term of (1) in addition to the matches
   // (solvers/ceres/ins_refinement.h).
   std::optional<VerticalPrior> prior;
 
@@ -99,8 +99,8 @@ struct PoseCovarianceOptions : CovarianceOptions {
 // The covariance of a pose, and the directions that are unobservable or
 // uncertain.
 struct PoseCovariance {
-  std::optional<Matrix6> covariance;                 // Of w and d in (2).
-  std::optional<Matrix6> covariance_at_center;       // Of w and u in (3).
+  std::optional<Matrix6> covariance;            // Covariance of w and d in (2).
+  std::optional<Matrix6> covariance_at_center;  // Covariance of w and u in (3).
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // c [m]
 
   std::vector<UnobservableDirection> unobservable;
@@ -109,7 +109,7 @@ struct PoseCovariance {
   int rank = 0;
 
   double sigma = 0.0;                     // The value used [m].
-  std::optional<double> estimated_sigma;  // From the residuals [m].
+  std::optional<double> estimated_sigma;  // Estimate from the residuals [m].
 
   // The distance from the pose to the minimum of (1) in standard deviations. If
   // it is not small compared with 1, the pose comes from an estimator with

@@ -108,7 +108,8 @@ class Sinusoid {
 
   const std::vector<Arc>& arcs_;
   std::vector<std::int32_t> set_;
-  std::vector<std::size_t> position_;  // Of each arc of the set, in set_.
+  std::vector<std::size_t>
+      position_;  // Position in set_ of each arc of the set.
   double reference_ = -M_PI;
   double at_reference_ = 0.0;
   double cosine_ = 0.0;
@@ -127,6 +128,91 @@ Eigen::ArrayXd SquaredResiduals(const PointsRef& source,
   const auto y = target.row(1) - (s * source.row(0) + c * source.row(1));
   return (x.array().square() + y.array().square()).transpose() /
          noise_bounds.array().square();
+}
+
+// The arcs, their ends in order, and where the sweep starts, at -pi.
+struct Circle {
+  std::vector<Arc> arcs;
+  std::vector<End> ends;
+  std::vector<std::int32_t> first_set;  // The arcs that contain -pi.
+  double outlier_weight = 0.0;          // Weight of the arcs outside the set.
+};
+
+Circle MakeCircle(const PointsRef& source,
+                  const PointsRef& target,
+                  const WeightsRef& weights,
+                  const WeightsRef& noise_bounds) {
+  Circle circle;
+  for (Eigen::Index k = 0; k < source.cols(); ++k) {
+    const double sx = source(0, k);
+    const double sy = source(1, k);
+    const double tx = target(0, k);
+    const double ty = target(1, k);
+    const double a = std::hypot(sx, sy);
+    const double b = std::hypot(tx, ty);
+    const double bound2 = noise_bounds[k] * noise_bounds[k];
+    const double scale = weights[k] / bound2;
+    const double pull = 2.0 * a * b;
+    // Equation (2) by the half angle, which keeps its digits for narrow arcs:
+    // sin^2(half width / 2) = (c^2 - (a - b)^2) / (4 a b).
+    const double room = bound2 - (a - b) * (a - b);
+    if (!(weights[k] > 0.0) || !(pull > 0.0) || !(room >= 0.0)) continue;
+    if (!std::isfinite(pull * scale)) continue;  // Overflow.
+    const double phi = std::atan2(sx * ty - sy * tx, sx * tx + sy * ty);
+    const auto index = static_cast<std::int32_t>(circle.arcs.size());
+    circle.arcs.push_back(
+        {phi, (a - b) * (a - b) * scale, pull * scale, weights[k]});
+    if (room >= 2.0 * pull) {
+      circle.first_set.push_back(index);
+      continue;
+    }
+    circle.outlier_weight += weights[k];
+    const double half_width = 2.0 * std::asin(std::sqrt(room / (2.0 * pull)));
+    double begin = phi - half_width;
+    double end = phi + half_width;
+    if (begin < -M_PI) begin += 2.0 * M_PI;
+    if (end > M_PI) end -= 2.0 * M_PI;
+    circle.ends.push_back({begin, false, index});
+    circle.ends.push_back({end, true, index});
+    if (begin > end) {  // It contains -pi, where the sweep starts.
+      circle.first_set.push_back(index);
+      circle.outlier_weight -= weights[k];
+    }
+  }
+  std::sort(circle.ends.begin(), circle.ends.end());
+  return circle;
+}
+
+// The yaw with the least cost over all sets of arcs that the sweep meets.
+double SweepYaws(const Circle& circle, double total_weight) {
+  double outlier_weight = circle.outlier_weight;
+  Sinusoid sinusoid(circle.arcs);
+  for (const std::int32_t arc : circle.first_set) sinusoid.Enter(arc);
+  const double tie = kTie * total_weight;
+  double best_cost = std::numeric_limits<double>::infinity();
+  double best_yaw = 0.0;
+  const auto consider = [&] {
+    if (sinusoid.IsEmpty()) return;
+    const double cost = sinusoid.Minimum() + outlier_weight;
+    if (cost < best_cost - tie) {
+      best_cost = cost;
+      best_yaw = sinusoid.Argmin();
+    }
+  };
+  consider();
+  for (const End& end : circle.ends) {
+    const Arc& arc = circle.arcs[static_cast<std::size_t>(end.arc)];
+    sinusoid.MoveReference(end.at);
+    if (end.leaves) {
+      sinusoid.Leave(end.arc);
+      outlier_weight += arc.weight;
+    } else {
+      sinusoid.Enter(end.arc);
+      outlier_weight -= arc.weight;
+    }
+    consider();
+  }
+  return best_yaw;
 }
 
 }  // namespace
@@ -155,74 +241,9 @@ std::optional<ExactYawEstimate> EstimateExactYaw(
     return std::nullopt;
   }
 
-  std::vector<Arc> arcs;
-  std::vector<End> ends;
-  std::vector<std::int32_t> first_set;  // The arcs that contain -pi.
-  double outlier_weight = 0.0;          // Weight of the arcs outside the set.
-  for (Eigen::Index k = 0; k < source.cols(); ++k) {
-    const double sx = source(0, k);
-    const double sy = source(1, k);
-    const double tx = target(0, k);
-    const double ty = target(1, k);
-    const double a = std::hypot(sx, sy);
-    const double b = std::hypot(tx, ty);
-    const double bound2 = noise_bounds[k] * noise_bounds[k];
-    const double scale = weights[k] / bound2;
-    const double pull = 2.0 * a * b;
-    // Equation (2) by the half angle, which keeps its digits for narrow arcs:
-    // sin^2(half width / 2) = (c^2 - (a - b)^2) / (4 a b).
-    const double room = bound2 - (a - b) * (a - b);
-    if (!(weights[k] > 0.0) || !(pull > 0.0) || !(room >= 0.0)) continue;
-    if (!std::isfinite(pull * scale)) continue;  // Overflow.
-    const double phi = std::atan2(sx * ty - sy * tx, sx * tx + sy * ty);
-    const auto index = static_cast<std::int32_t>(arcs.size());
-    arcs.push_back({phi, (a - b) * (a - b) * scale, pull * scale, weights[k]});
-    if (room >= 2.0 * pull) {
-      first_set.push_back(index);
-      continue;
-    }
-    outlier_weight += weights[k];
-    const double half_width = 2.0 * std::asin(std::sqrt(room / (2.0 * pull)));
-    double begin = phi - half_width;
-    double end = phi + half_width;
-    if (begin < -M_PI) begin += 2.0 * M_PI;
-    if (end > M_PI) end -= 2.0 * M_PI;
-    ends.push_back({begin, false, index});
-    ends.push_back({end, true, index});
-    if (begin > end) {  // It contains -pi, where the sweep starts.
-      first_set.push_back(index);
-      outlier_weight -= weights[k];
-    }
-  }
-  if (arcs.empty()) return std::nullopt;
-  std::sort(ends.begin(), ends.end());
-
-  Sinusoid sinusoid(arcs);
-  for (const std::int32_t arc : first_set) sinusoid.Enter(arc);
-  const double tie = kTie * weights.sum();
-  double best_cost = std::numeric_limits<double>::infinity();
-  double best_yaw = 0.0;
-  const auto consider = [&] {
-    if (sinusoid.IsEmpty()) return;
-    const double cost = sinusoid.Minimum() + outlier_weight;
-    if (cost < best_cost - tie) {
-      best_cost = cost;
-      best_yaw = sinusoid.Argmin();
-    }
-  };
-  consider();
-  for (const End& end : ends) {
-    const Arc& arc = arcs[static_cast<std::size_t>(end.arc)];
-    sinusoid.MoveReference(end.at);
-    if (end.leaves) {
-      sinusoid.Leave(end.arc);
-      outlier_weight += arc.weight;
-    } else {
-      sinusoid.Enter(end.arc);
-      outlier_weight -= arc.weight;
-    }
-    consider();
-  }
+  const Circle circle = MakeCircle(source, target, weights, noise_bounds);
+  if (circle.arcs.empty()) return std::nullopt;
+  const double best_yaw = SweepYaws(circle, weights.sum());
 
   // Solves once more with the inliers found, which removes the rounding of the
   // running sums. This can only lower the cost.

@@ -15,7 +15,7 @@
 namespace quatro {
 namespace {
 
-// The least eigenvalue of (4) counts as zero below this fraction of sum_i w_i
+// The least eigenvalue of (3) counts as zero below this fraction of sum_i w_i
 // |s_i| |t_i|. There, the rounding of M alone, 1e-16 of that sum, could rotate
 // the estimate by 1e-4 rad.
 constexpr double kMinCurvature = 1e-12;
@@ -37,30 +37,11 @@ RotationOfM RotationBySvd(const Eigen::Matrix3d& M) {
           2.0 * (d[1] + sign * d[2])};
 }
 
-// Equation (3).
-RotationOfM RotationByHorn(const Eigen::Matrix3d& M) {
-  const Eigen::Vector3d skew(
-      M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1));
-  Eigen::Matrix4d N;  // Rows and columns are w, x, y, z.
-  N(0, 0) = M.trace();
-  N.topRightCorner<1, 3>() = skew.transpose();
-  N.bottomLeftCorner<3, 1>() = skew;
-  N.bottomRightCorner<3, 3>() =
-      M + M.transpose() - M.trace() * Eigen::Matrix3d::Identity();
-
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(N);
-  const Eigen::Vector4d q = eigen.eigenvectors().col(3);
-  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix(),
-          eigen.eigenvalues()[3] - eigen.eigenvalues()[2]};
-}
-
 // `floor` [m^2] is the curvature that rounding of the points can cause.
-template <typename RotationByM>
 std::optional<RotationEstimate> Estimate(const PointsRef& source,
                                          const PointsRef& target,
                                          const WeightsRef& weights,
-                                         const RotationByM& rotation_by_m,
-                                         double floor = 0.0) {
+                                         double floor) {
   CHECK_EQ(source.cols(), target.cols());
   CHECK_EQ(source.cols(), weights.size());
 
@@ -72,7 +53,7 @@ std::optional<RotationEstimate> Estimate(const PointsRef& source,
   }
   if (!M.allFinite()) return std::nullopt;
 
-  const auto [R, least_curvature] = rotation_by_m(M);
+  const auto [R, least_curvature] = RotationBySvd(M);
   if (!(least_curvature > std::max(kMinCurvature * scale, floor))) {
     return std::nullopt;
   }
@@ -90,17 +71,10 @@ std::optional<RotationEstimate> Estimate(const PointsRef& source,
 
 }  // namespace
 
-std::optional<RotationEstimate> EstimateRotationSvd(const PointsRef& source,
-                                                    const PointsRef& target,
-                                                    const WeightsRef& weights) {
-  return Estimate(source, target, weights, RotationBySvd);
-}
-
-std::optional<RotationEstimate> EstimateRotationHorn(
-    const PointsRef& source,
-    const PointsRef& target,
-    const WeightsRef& weights) {
-  return Estimate(source, target, weights, RotationByHorn);
+std::optional<RotationEstimate> EstimateRotation(const PointsRef& source,
+                                                 const PointsRef& target,
+                                                 const WeightsRef& weights) {
+  return Estimate(source, target, weights, /*floor=*/0.0);
 }
 
 std::optional<RigidEstimate> EstimateRigid(const PointsRef& source,
@@ -114,8 +88,7 @@ std::optional<RigidEstimate> EstimateRigid(const PointsRef& source,
   const CenteredPoints p = Center(source, weights);
   const CenteredPoints q = Center(target, weights);
   const double floor = RoundingOfMoments(p, q, weights);
-  const auto rotation =
-      Estimate(p.points, q.points, weights, RotationBySvd, floor);
+  const auto rotation = Estimate(p.points, q.points, weights, floor);
   if (!rotation) return std::nullopt;
 
   const Eigen::Matrix3d& R = rotation->target_from_source;

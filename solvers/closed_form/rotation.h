@@ -11,22 +11,19 @@
 // and
 //
 //   M = sum_i w_i t_i s_i^T = U diag(d1, d2, |d3|) V^T,    d3 = +-|d3|,
-//   R = U diag(1, 1, det(U V^T)) V^T,  d3 signed as det(U V^T),             (2)
-//   or R = the quaternion that is the eigenvector of largest eigenvalue of
-//          Horn's symmetric 4x4 matrix, whose entries are sums of M's.      (3)
+//   R = U diag(1, 1, det(U V^T)) V^T,  d3 signed as det(U V^T).             (2)
 //
 // For R -> exp([delta]x) R the second derivative of (1) is
 //
-//   H = 2 tr(B) I - (B + B^T),   B = M R^T,                                 (4)
+//   H = 2 tr(B) I - (B + B^T),   B = M R^T,                                 (3)
 //
 // with eigenvalues 2 (d2 + d3) <= 2 (d1 + d3) <= 2 (d1 + d2). The least is zero
 // exactly if R is not unique: either the pairs are on one line through the
 // origin, d2 = d3 = 0, or a reflection fits them and the best two rotations
-// tie, d2 = -d3. It is also the gap between the two largest eigenvalues in (3).
+// tie, d2 = -d3.
 //
 // Sources: Arun, Huang and Blostein, PAMI 1987; Umeyama, PAMI 1991 (the sign in
-// (2)); Horn, "Closed-form solution of absolute orientation using unit
-// quaternions", JOSA A 1987.
+// (2)). The tests compare with Horn's quaternions (JOSA A 1987).
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_ROTATION_H_
 #define QUATRO_SOLVERS_CLOSED_FORM_ROTATION_H_
@@ -47,48 +44,37 @@ struct RotationEstimate {
   // Value of (1) at the minimum [m^2].
   double cost = 0.0;
 
-  // (4) [m^2/rad^2], delta in the target frame. With inverse variances [1/m^2]
+  // (3) [m^2/rad^2], delta in the target frame. With inverse variances [1/m^2]
   // as weights, 2 curvature^-1 is the covariance of delta [rad^2].
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
 };
 
 // `source` and `target` hold the pairs column by column. Their sizes and that
 // of `weights` must be equal. Returns nullopt if the pairs do not determine a
-// rotation: the least eigenvalue of (4) is zero up to rounding. This covers no
+// rotation: the least eigenvalue of (3) is zero up to rounding. This covers no
 // pairs, one pair, all weights zero, and NaN.
-std::optional<RotationEstimate> EstimateRotationSvd(const PointsRef& source,
-                                                    const PointsRef& target,
-                                                    const WeightsRef& weights);
-std::optional<RotationEstimate> EstimateRotationHorn(const PointsRef& source,
-                                                     const PointsRef& target,
-                                                     const WeightsRef& weights);
+std::optional<RotationEstimate> EstimateRotation(const PointsRef& source,
+                                                 const PointsRef& target,
+                                                 const WeightsRef& weights);
 
-// Estimates the rotation by (2), the default method.
-inline std::optional<RotationEstimate> EstimateRotation(
-    const PointsRef& source,
-    const PointsRef& target,
-    const WeightsRef& weights) {
-  return EstimateRotationSvd(source, target, weights);
-}
-
-// The minimum of (5) and its curvature.
+// The minimum of (4) and its curvature.
 struct RigidEstimate {
   Rigid3 target_from_source;
 
-  // Value of (5) at the minimum [m^2].
+  // Value of (4) at the minimum [m^2].
   double cost = 0.0;
 
-  // Second derivative of (5) for a rotation by delta [rad] about the centroid c
+  // Second derivative of (4) for a rotation by delta [rad] about the centroid c
   // of the source and a translation by tau [m],
   //   x -> exp([delta]x) R (x - c) + R c + t + tau,    in order (delta, tau).
-  // The cross terms are zero. The blocks are (4) of the centered points and 2
+  // The cross terms are zero. The blocks are (3) of the centered points and 2
   // sum_i w_i I.
   Eigen::Matrix<double, 6, 6> curvature = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 // The rigid transformation
 //
-//   R, t = argmin  sum_i w_i || q_i - R p_i - t ||^2                        (5)
+//   R, t = argmin  sum_i w_i || q_i - R p_i - t ||^2                        (4)
 //
 // of points p_i in `source` and q_i in `target`. R is (1) for the points
 // relative to their weighted means; then t = mean(q) - R mean(p). The result is

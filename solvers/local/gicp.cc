@@ -5,11 +5,7 @@
 
 #include <glog/logging.h>
 
-#include <limits>
-#include <sstream>
-
 #include "features/base/stopwatch.h"
-#include "features/normals.h"
 #include "solvers/local/nearest_points.h"
 
 namespace quatro {
@@ -66,19 +62,6 @@ class GicpTerms final : public AlignmentTerms {
 
 }  // namespace
 
-bool GicpOptions::IsValid(std::string* error) const {
-  std::ostringstream problem;
-  if (!(epsilon > 0.0 && epsilon < 1.0)) {
-    problem << "epsilon = " << epsilon << ", must be in (0, 1)";
-  } else if (num_neighbors < 3) {
-    problem << "num_neighbors = " << num_neighbors << ", must be >= 3";
-  } else {
-    return alignment.IsValid(error);
-  }
-  *error = problem.str();
-  return false;
-}
-
 std::unique_ptr<AlignmentTerms> MakeGicpTerms(
     const DescribedCloud& source,
     const DescribedCloud& target,
@@ -117,48 +100,10 @@ AlignmentSummary SolveGicp(const Points& source,
   return SolveWithNormals(
       source,
       target,
-      options.alignment,
-      options.num_neighbors,
+      options,
       [&](const DescribedCloud& from, const DescribedCloud& onto) {
         return SolveGicp(from, onto, initial_target_from_source, options);
       });
-}
-
-Points EstimateNearestNormals(const KdTree& tree,
-                              int num_neighbors,
-                              int num_threads) {
-  return EstimateNormals(
-      tree.points(),
-      FindNearestNeighborhoods(tree, num_neighbors, num_threads),
-      std::numeric_limits<double>::infinity(),
-      Eigen::Vector3d::Zero(),
-      num_threads);
-}
-
-AlignmentSummary SolveWithNormals(
-    const Points& source,
-    const Points& target,
-    const LocalAlignmentOptions& options,
-    int num_neighbors,
-    const std::function<AlignmentSummary(
-        const DescribedCloud& source, const DescribedCloud& target)>& solve) {
-  AlignmentSummary summary;
-  if (!CanAlign(source, target, options, &summary)) return summary;
-  Stopwatch stopwatch;
-  DescribedCloud source_cloud, target_cloud;
-  source_cloud.tree = std::make_shared<const KdTree>(source);
-  target_cloud.tree = std::make_shared<const KdTree>(target);
-  const double tree_seconds = stopwatch.Lap();
-  for (DescribedCloud* cloud : {&source_cloud, &target_cloud}) {
-    cloud->normals = EstimateNearestNormals(
-        *cloud->tree, num_neighbors, options.num_threads);
-  }
-  const double normal_seconds = stopwatch.Lap();
-  summary = solve(source_cloud, target_cloud);
-  summary.stage_times.insert(
-      summary.stage_times.begin(),
-      {{"trees", tree_seconds}, {"normals", normal_seconds}});
-  return summary;
 }
 
 }  // namespace quatro

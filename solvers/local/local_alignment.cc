@@ -213,6 +213,33 @@ void Conclude(const System& system,
   summary->unobservable = spectrum.eigenvectors().leftCols(count);
 }
 
+// Takes a Levenberg-Marquardt step that does not raise the cost. If there is
+// none, the pose remains and both steps are zero.
+AlignmentIteration TakeStep(const System& system,
+                            Problem* problem,
+                            Rigid3* pose,
+                            double* damping) {
+  AlignmentIteration iteration;
+  iteration.cost = system.cost;
+  iteration.num_inliers = system.num_inliers;
+  for (int i = 0; i < kMaxNumDampings; ++i) {
+    Matrix6 damped = system.hessian;
+    damped.diagonal() *= 1.0 + *damping;
+    const Vector6 step = -damped.ldlt().solve(system.gradient);
+    const Rigid3 moved = Moved(*pose, problem->centroid(), step);
+    if (problem->Cost(moved) <= system.cost * (1.0 + kCostError)) {
+      iteration.rotation_step = step.head<3>().norm();
+      iteration.translation_step = step.tail<3>().norm();
+      iteration.damping = *damping;
+      *pose = moved;
+      *damping = *damping > 1e-6 ? 0.1 * *damping : 0.0;
+      break;
+    }
+    *damping = std::max(1e-3, 10.0 * *damping);
+  }
+  return iteration;
+}
+
 }  // namespace
 
 bool LocalAlignmentOptions::IsValid(std::string* error) const {
@@ -333,24 +360,8 @@ AlignmentSummary AlignLocally(const Rigid3& initial_target_from_source,
     }
     if (is_last) break;
 
-    AlignmentIteration iteration;
-    iteration.cost = system.cost;
-    iteration.num_inliers = system.num_inliers;
-    for (int i = 0; i < kMaxNumDampings; ++i) {
-      Matrix6 damped = system.hessian;
-      damped.diagonal() *= 1.0 + damping;
-      const Vector6 step = -damped.ldlt().solve(system.gradient);
-      const Rigid3 moved = Moved(pose, problem.centroid(), step);
-      if (problem.Cost(moved) <= system.cost * (1.0 + kCostError)) {
-        iteration.rotation_step = step.head<3>().norm();
-        iteration.translation_step = step.tail<3>().norm();
-        iteration.damping = damping;
-        pose = moved;
-        damping = damping > 1e-6 ? 0.1 * damping : 0.0;
-        break;
-      }
-      damping = std::max(1e-3, 10.0 * damping);
-    }
+    const AlignmentIteration iteration =
+        TakeStep(system, &problem, &pose, &damping);
     // Also true if no step was accepted: only rounding errors are left.
     is_converged =
         iteration.translation_step <= options.translation_tolerance &&

@@ -78,7 +78,7 @@ struct AlignmentIteration {
   Eigen::Index num_inliers = 0;
   double translation_step = 0.0;  // [m]
   double rotation_step = 0.0;     // [rad]
-  double damping = 0.0;           // Of the accepted step.
+  double damping = 0.0;           // Damping of the accepted step.
 };
 
 // The pose and the iterations that led to it.

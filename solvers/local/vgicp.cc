@@ -130,7 +130,7 @@ bool VgicpOptions::IsValid(std::string* error) const {
     *error = problem.str();
     return false;
   }
-  return GicpOptions{alignment, epsilon, num_neighbors}.IsValid(error);
+  return PlaneAlignmentOptions::IsValid(error);
 }
 
 std::unique_ptr<AlignmentTerms> MakeVgicpTerms(const DescribedCloud& source,
@@ -172,8 +172,7 @@ AlignmentSummary SolveVgicp(const Points& source,
   return SolveWithNormals(
       source,
       target,
-      options.alignment,
-      options.num_neighbors,
+      options,
       [&](const DescribedCloud& from, const DescribedCloud& onto) {
         return SolveVgicp(from, onto, initial_target_from_source, options);
       });

@@ -5,7 +5,8 @@
 //
 //   q_i = mean q_j,   W_i = N (mean C_j + R B_i R^T)^-1,                    (1)
 //
-// B and C are those of solvers/local/gicp.h. Each point takes one voxel lookup
+// B and C are the covariances of the surfaces
+// (solvers/local/plane_alignment.h). Each point takes one voxel lookup
 // instead of a search for neighbors. Voxels are cubes anchored at the origin of
 // the target.
 //
@@ -23,17 +24,15 @@
 
 #include "features/base/rigid3.h"
 #include "features/base/types.h"
-#include "solvers/local/gicp.h"
+#include "features/described_cloud.h"
 #include "solvers/local/local_alignment.h"
+#include "solvers/local/plane_alignment.h"
 
 namespace quatro {
 
-// Options of the iteration, the voxels and the plane model.
-struct VgicpOptions {
-  LocalAlignmentOptions alignment;
+// Options of the iteration, the plane model and the voxels.
+struct VgicpOptions : PlaneAlignmentOptions {
   double voxel_size = 1.0;  // [m]
-  double epsilon = 1e-3;    // In (0, 1).
-  int num_neighbors = 20;   // For normals, if none are given.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

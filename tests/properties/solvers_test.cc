@@ -14,6 +14,7 @@
 #include "solvers/closed_form/translation.h"
 #include "solvers/closed_form/yaw.h"
 #include "tests/properties/lattice.h"
+#include "tests/support/horn_rotation.h"
 
 namespace quatro {
 namespace {
@@ -56,7 +57,7 @@ RC_GTEST_PROP(RotationProperty, BothClosedFormsAnswerTheSame, ()) {
   const auto n = *NumUpTo(0, 5);
   const Points source = LatticePoints(n), target = LatticePoints(n);
   const Weights weights = LatticeNumbers(n, 0, 2);
-  const auto svd = EstimateRotationSvd(source, target, weights);
+  const auto svd = EstimateRotation(source, target, weights);
   const auto horn = EstimateRotationHorn(source, target, weights);
   RC_ASSERT(svd.has_value() == horn.has_value());
   if (!svd) return;

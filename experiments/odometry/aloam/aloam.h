@@ -42,9 +42,9 @@ struct AloamOptions {
   int num_rounds = 2;
   int start_rounds = 100;
 
-  double max_scan_distance = 5.0;  // Of matches to the previous scan [m].
-  double max_map_distance = 1.0;   // Of the fifth neighbor in the map [m].
-  double edge_voxel = 0.4;         // Of the map [m].
+  double max_scan_distance = 5.0;  // Match to the previous scan [m].
+  double max_map_distance = 1.0;   // Fifth neighbor in the map [m].
+  double edge_voxel = 0.4;         // Voxel of the map [m].
   double plane_voxel = 0.8;        // [m]
   double map_radius = 100.0;       // [m]
 

@@ -46,7 +46,7 @@ class RingTrees {
  private:
   struct Ring {
     KdTree tree;
-    std::vector<Eigen::Index> index;  // Of its points in points_.
+    std::vector<Eigen::Index> index;  // Its points in points_.
   };
 
   RingPoints points_;

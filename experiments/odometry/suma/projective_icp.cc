@@ -19,8 +19,8 @@ struct NormalEquations {
   Matrix6 hessian = Matrix6::Zero();
   Vector6 gradient = Vector6::Zero();
   Eigen::Index num_matches = 0;
-  double squares = 0.0;    // Of r [m^2].
-  double distances = 0.0;  // Of the points from the sensor [m].
+  double squares = 0.0;    // Sum of r^2 [m^2].
+  double distances = 0.0;  // Sum of distances from the sensor [m].
 };
 
 NormalEquations Linearize(const VertexMap& scan,

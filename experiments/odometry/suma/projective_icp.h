@@ -55,7 +55,7 @@ struct ProjectiveIcpSummary {
 
   int num_iterations = 0;
   Eigen::Index num_matches = 0;  // In the last iteration.
-  double rms = 0.0;              // Of r over the matches [m].
+  double rms = 0.0;              // Root mean square of r [m].
   double conditioning = 0.0;
 };
 

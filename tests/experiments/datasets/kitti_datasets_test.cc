@@ -96,10 +96,10 @@ class KittiTest : public ProgramTest {
 
 class KittiOdometryTest : public KittiTest {};
 
-// An independent drive of random poses, in the layout of KittiWriter.
+// An independent drive of random poses, in the layout of KITTI.
 TEST_F(KittiOdometryTest, WhatTheWriterWritesComesBack) {
   std::string error;
-  const auto writer = KittiWriter::Create(PathOf("05"), false, &error);
+  const auto writer = MakeKittiWriter(PathOf("05"), false, &error);
   ASSERT_NE(writer, nullptr) << error;
   std::vector<Rigid3> poses;
   std::vector<InsReading> readings;

@@ -61,7 +61,7 @@ class NaverTest : public ProgramTest {
 
 TEST_F(NaverTest, WhatTheWriterWritesComesBack) {
   std::string error;
-  const auto writer = NaverWriter::Create(PathOf("hd_b1"), false, &error);
+  const auto writer = MakeNaverWriter(PathOf("hd_b1"), false, &error);
   ASSERT_NE(writer, nullptr) << error;
   std::vector<Rigid3> poses;
   std::vector<Attitude> attitudes;

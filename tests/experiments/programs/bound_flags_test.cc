@@ -93,16 +93,5 @@ TEST_F(BoundFlagsTest, ALocalMethodTakesAGuessAlone) {
   EXPECT_TRUE(ParseBoundFlags({"1,2,3,4"}, true, &error)) << error;
 }
 
-TEST_F(BoundFlagsTest, TheReportHasThem) {
-  std::string error;
-  const Json json =
-      DescribeOptions(*ParseBoundFlags({"4,5,6,90", 2.5}, false, &error));
-  EXPECT_EQ(json["guess"][0][3], 4.0);
-  EXPECT_EQ(json["guess"][1][0], 1.0);
-  EXPECT_EQ(json["max_translation"], 2.5);
-  EXPECT_EQ(json["max_yaw_deg"], 180.0);
-  EXPECT_TRUE(DescribeOptions(PoseBounds())["max_translation"].is_null());
-}
-
 }  // namespace
 }  // namespace quatro

@@ -27,7 +27,8 @@ Json Report(const PointsRef& source, const PointsRef& target) {
       Judge(source, target, summary, options.noise_bound, std::nullopt, {});
   Json report =
       MakeReport("quatro", verdict, summary, summary.stage_times, 0.1);
-  report["parameters"] = DescribeOptions(options);
+  report["parameters"] =
+      DescribeOptions("quatro", /*has_clouds=*/false, RegistrationOptions());
   return report;
 }
 

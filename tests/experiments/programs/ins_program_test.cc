@@ -96,10 +96,12 @@ TEST_F(InsProgramTest, AllWaysFindTheTiltedPose) {
       EXPECT_EQ(report["status"], "registered") << mode;
       EXPECT_LT(RotationErrorDeg(report), 0.3) << mode;
       EXPECT_EQ(report["parameters"]["ins_mode"], mode);
-      EXPECT_NEAR(
-          report["parameters"]["source_rpy_deg"][1].get<double>(), -5.0, 1e-12);
-      EXPECT_NEAR(
-          report["parameters"]["ins_std_deg"].get<double>(), 0.5, 1e-12);
+      EXPECT_NEAR(report["parameters"]["source_rpy"][1].get<double>(),
+                  -5.0 * M_PI / 180.0,
+                  1e-12);
+      EXPECT_NEAR(report["parameters"]["attitude_std"].get<double>(),
+                  0.5 * M_PI / 180.0,
+                  1e-12);
     }
   }
 }

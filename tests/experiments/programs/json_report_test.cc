@@ -13,7 +13,6 @@
 
 #include "features/base/rigid3.h"
 #include "robust/estimators/pose_summary.h"
-#include "robust/estimators/quatro.h"
 #include "robust/registration/registration.h"
 #include "robust/verdict/verdict.h"
 
@@ -224,19 +223,6 @@ TEST(JsonReportTest, StructureThatWasNotMeasuredIsNull) {
   hold.weakest_level_axis = Eigen::Vector3d::UnitY();
   EXPECT_EQ(Describe(hold)["weakest_level_share"], 0.25);
   EXPECT_EQ(Describe(hold)["weakest_level_axis"], Json({0.0, 1.0, 0.0}));
-}
-
-TEST(JsonReportTest, OptionsAreDescribedByTheirNamesInTheLibrary) {
-  RegistrationOptions options;
-  options.noise_bound = 0.15;
-  options.quatro.gnc.start = GncStart::kIdentity;
-  options.front_end.normal_radius = 0.5;
-  const Json quatro = DescribeOptions(WithSharedValues(options).quatro);
-  EXPECT_EQ(quatro["noise_bound"], 0.15);
-  EXPECT_EQ(quatro["gnc_start"], "identity");
-  const Json front_end = DescribeOptions(options.front_end);
-  EXPECT_EQ(front_end["voxel_size"], options.front_end.voxel_size);
-  EXPECT_EQ(front_end["normal_radius"], 0.5);
 }
 
 TEST(JsonReportTest, VersionIsThreeNumbers) {

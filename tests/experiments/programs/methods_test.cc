@@ -328,14 +328,17 @@ TEST(Methods, LocalOnesStartFromTheGuess) {
   const Rigid3 guess{RotationZ(0.02), {0.2, 0.1, 0.0}};
   RegistrationOptions options;
   options.bounds.guess = guess;
+  int num_local = 0;
   for (const std::string& name : CloudMethodNames()) {
     if (IsGlobal(name)) continue;
+    ++num_local;
     const RegistrationSummary summary = RegisterBy(name, cloud, cloud, options);
     ASSERT_TRUE(summary.refinement.has_value()) << name << summary.error;
     EXPECT_EQ(summary.refinement->unrefined_target_from_source.ToMatrix(),
               guess.ToMatrix());
     EXPECT_GT(summary.refinement->moved_rotation, 0.01) << name;
   }
+  EXPECT_GE(num_local, 3);
 }
 
 TEST(Methods, RefinementsAreKnownByTheirNames) {

@@ -195,7 +195,9 @@ TEST_F(PairsTest, DoesNotRegisterDifferentPlaces) {
 
 TEST_F(PairsTest, ProgramExitsWithOneForDifferentPlaces) {
   if (!Has("pairs_negative.csv")) GTEST_SKIP() << "needs pairs_negative.csv";
-  for (const auto& row : ReadTable("pairs_negative.csv")) {
+  const auto rows = ReadTable("pairs_negative.csv");
+  EXPECT_FALSE(rows.empty());
+  for (const auto& row : rows) {
     const ProgramRun run =
         RunProgram("quatro_register",
                    {"--source=" + DataPath(row.at("source")),

@@ -21,6 +21,20 @@
 namespace quatro {
 namespace {
 
+// The points that the page reads from the bytes.
+Points UnquantizePoints(const std::string& bytes, const PointGrid& grid) {
+  Points points(3, static_cast<Eigen::Index>(bytes.size() / 6));
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    const auto at = static_cast<std::size_t>(2 * i);
+    const auto low = static_cast<unsigned char>(bytes[at]);
+    const auto high = static_cast<unsigned char>(bytes[at + 1]);
+    const auto whole =
+        static_cast<std::int16_t>(static_cast<std::uint16_t>(low | high << 8));
+    points(i % 3, i / 3) = grid.origin(i % 3) + grid.step * whole;
+  }
+  return points;
+}
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 

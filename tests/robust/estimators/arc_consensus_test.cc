@@ -120,6 +120,7 @@ TEST_F(ArcConsensusTest, SummaryCountsWhatItLists) {
   EXPECT_LE(summary.num_rotation_inliers, summary.num_tims);
   const Points error =
       problem_.target - summary.target_from_source->Apply(problem_.source);
+  EXPECT_GE(summary.translation_inliers.size(), 10u);
   for (const Eigen::Index i : summary.translation_inliers) {
     EXPECT_LE(error.col(i).cwiseAbs().maxCoeff(), 0.3 + 1e-9) << "match " << i;
   }

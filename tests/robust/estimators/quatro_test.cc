@@ -122,6 +122,7 @@ TEST_P(QuatroTest, TranslationInliersAreWithinTheNoiseBound) {
   ASSERT_TRUE(summary.IsUsable()) << summary.message;
   const Points error =
       problem_.target - summary.target_from_source->Apply(problem_.source);
+  EXPECT_GE(summary.translation_inliers.size(), 10u);
   for (const Eigen::Index i : summary.translation_inliers) {
     EXPECT_LE(error.col(i).cwiseAbs().maxCoeff(), options_.noise_bound + 1e-9)
         << "match " << i;

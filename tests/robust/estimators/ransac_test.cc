@@ -235,6 +235,7 @@ TEST(Ransac, IsNoWorseThanEverySampleThereIs) {
         }
       }
     }
+    ASSERT_LT(least, kInfinity) << "seed " << seed;
     EXPECT_LE(summary.cost, least + 1e-9) << "seed " << seed;
     EXPECT_NEAR(
         summary.cost,

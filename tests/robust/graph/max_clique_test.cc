@@ -190,6 +190,8 @@ TEST(FindCliqueGreedily, IsNeverAboveAndMostlyAtTheOptimum) {
 TEST(FindCliqueGreedily, CannotBeExtended) {
   const Graph graph = RandomGraph(120, 0.4, 5);
   const auto clique = FindCliqueGreedily(graph);
+  EXPECT_GE(clique.size(), 5u);
+  EXPECT_LE(clique.size(), 20u);
   for (int i = 0; i < graph.num_vertices(); ++i) {
     if (std::ranges::binary_search(clique, i)) continue;
     std::vector<int> larger = clique;

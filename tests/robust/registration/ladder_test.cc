@@ -69,6 +69,7 @@ TEST(Ladder, RegistersWhatTheEstimatorAloneDoesNot) {
   // The matches are those of the rung.
   EXPECT_EQ(summary.matched_source.cols(), summary.matched_target.cols());
   EXPECT_EQ(summary.solution.num_matches, summary.matched_source.cols());
+  EXPECT_FALSE(summary.solution.translation_inliers.empty());
   for (const Eigen::Index i : summary.solution.translation_inliers) {
     EXPECT_LT((*summary.target_from_source() *
                    Eigen::Vector3d(summary.matched_source.col(i)) -
@@ -189,6 +190,7 @@ TEST(Ladder, CandidatesAreWithinTheBounds) {
   options.bounds.max_translation = 5.0;
   const RegistrationSummary near = RegisterFar(options);
   ExpectTrue(near.target_from_source());
+  EXPECT_FALSE(near.candidates.empty());
   for (const PoseCandidate& candidate : near.candidates) {
     EXPECT_TRUE(options.bounds.Contain(candidate.target_from_source,
                                        options.noise_bound));

@@ -397,12 +397,15 @@ void Set(const Method& method,
          const std::string& name_and_value,
          RegistrationOptions* options) {
   const std::size_t equals = name_and_value.find('=');
+  bool is_set = false;
   for (const Option& option : OptionsOf(method, true, options)) {
     if (option.name != name_and_value.substr(0, equals)) continue;
     std::string error;
     EXPECT_TRUE(option.Parse(name_and_value.substr(equals + 1), &error))
         << error;
+    is_set = true;
   }
+  EXPECT_TRUE(is_set) << method.name << " has no " << name_and_value;
 }
 
 void SetNeeded(const Method& method,
@@ -462,9 +465,11 @@ class MethodOptions : public ::testing::TestWithParam<std::string> {
 TEST_P(MethodOptions, NoneIsIgnored) {
   RegistrationOptions named;
   const OptionList list = OptionsOf(*method_, true, &named);
+  int num_checked = 0;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string& name = list[i].name;
     if (IsExcepted(*method_, name)) continue;
+    ++num_checked;
     RegistrationOptions base = BaseOptions(*method_);
     SetNeeded(*method_, name, &base);
     std::string error;
@@ -473,6 +478,7 @@ TEST_P(MethodOptions, NoneIsIgnored) {
                 Shows(RunFrontEnd, i, base))
         << "option " << name << " of " << GetParam() << " changes nothing";
   }
+  EXPECT_GE(num_checked, 5);
 }
 
 TEST_P(MethodOptions, TheNumberOfThreadsChangesNothing) {

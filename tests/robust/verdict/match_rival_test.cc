@@ -88,22 +88,27 @@ TEST(MatchRival, OfMatchesOnOnePoleAndALuckyOneIsATurnAboutThePole) {
 }
 
 TEST(MatchRival, OfAGoodConsensusIsFarBehind) {
+  int num_rivals = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const KnownProblem problem =
         MakeMatchedProblem({.num_inliers = 40, .num_outliers = 400}, seed);
     const auto rival = Find(problem);
     if (!rival) continue;
+    ++num_rivals;
     EXPECT_LE(rival->num_inliers, 8) << "seed " << seed;
     EXPECT_GE(rival->margin, 4.0) << "seed " << seed;
   }
+  EXPECT_EQ(num_rivals, 10);
 }
 
 TEST(MatchRival, IsNeverThePoseItself) {
+  int num_rivals = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const KnownProblem problem = MakeMatchedProblem(
         {.num_inliers = 60, .num_outliers = 100, .noise = 0.5}, seed);
     const auto rival = Find(problem);
     if (!rival) continue;
+    ++num_rivals;
     const Rigid3 step =
         rival->target_from_source * Inverse(problem.true_target_from_source);
     const auto agreeing = problem.true_target_from_source.translation;
@@ -112,6 +117,7 @@ TEST(MatchRival, IsNeverThePoseItself) {
                 (step * agreeing - agreeing).norm() > kBound)
         << "seed " << seed;
   }
+  EXPECT_EQ(num_rivals, 20);
 }
 
 TEST(MatchRival, MarginIsEquationOneAndNegativeWhereTheRivalIsBetter) {

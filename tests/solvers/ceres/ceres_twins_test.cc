@@ -19,6 +19,7 @@
 #include "features/base/rigid3.h"
 #include "solvers/ceres/ceres_residuals.h"
 #include "solvers/ceres/second_derivative.h"
+#include "tests/support/horn_rotation.h"
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
@@ -151,7 +152,7 @@ TEST(CeresTwins, RotationAgreesWithItsClosedForms) {
       continue;
     }
     for (const auto& closed_form :
-         {EstimateRotationSvd(pairs.source, pairs.target, pairs.weights),
+         {EstimateRotation(pairs.source, pairs.target, pairs.weights),
           EstimateRotationHorn(pairs.source, pairs.target, pairs.weights)}) {
       ASSERT_TRUE(closed_form.has_value());
       EXPECT_LT(AngleBetween(twin.estimate.target_from_source,

@@ -217,20 +217,24 @@ TEST(ExactYaw, IsTheLeastOverAllIntervals) {
 }
 
 TEST(ExactYaw, NoAngleOfAFineGridIsBetter) {
+  int num_answers = 0;
   int num_at_the_grids_best = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const auto n = static_cast<Eigen::Index>(2 + seed % 14);
     const Problem problem = RandomProblem(n, 0.3, 10.0, 1000 + seed);
     const auto exact = problem.Solve();
     if (!exact) continue;
+    ++num_answers;
     const double least = LeastOverGrid(problem);
     EXPECT_LE(exact->cost, least + 1e-12) << "seed " << seed;
     num_at_the_grids_best += least <= exact->cost + 1e-9;
   }
+  EXPECT_GT(num_answers, 180);
   EXPECT_GT(num_at_the_grids_best, 170);
 }
 
 TEST(ExactYaw, CostAndInliersAreThoseOfTheYaw) {
+  int num_clear = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Problem problem = RandomProblem(40, 0.3, 30.0, seed);
     const auto exact = problem.Solve();
@@ -247,14 +251,17 @@ TEST(ExactYaw, CostAndInliersAreThoseOfTheYaw) {
     for (Eigen::Index k = 0; k < 40; ++k) {
       const double distance = error.col(k).head<2>().norm();
       if (std::abs(distance - problem.bounds[k]) < 1e-9) continue;
+      ++num_clear;
       EXPECT_EQ(exact->is_inlier[k], distance < problem.bounds[k])
           << "seed " << seed << ", " << distance << " m";
     }
   }
+  EXPECT_GT(num_clear, 3900);
 }
 
 TEST(ExactYaw, CostsNoMoreThanGraduatedNonConvexity) {
   constexpr double kBound = 0.3;
+  int num_compared = 0;
   int num_missed = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const double ratio = 0.5 + 0.05 * static_cast<double>(seed % 10);
@@ -265,10 +272,12 @@ TEST(ExactYaw, CostsNoMoreThanGraduatedNonConvexity) {
     const auto gnc = SolveGnc<TruncatedLeastSquares>(
         QuasiSo3{tims.source, tims.target, kBound}, GncOptions());
     if (!gnc.IsUsable()) continue;
+    ++num_compared;
     const double gap = problem.CostAt(gnc.estimate) - exact->cost;
     EXPECT_GE(gap, -1e-9 * exact->cost) << "seed " << seed;
     num_missed += gap > 1e-3;
   }
+  EXPECT_GT(num_compared, 250);
   EXPECT_GT(num_missed, 10) << "too easy to tell the two apart";
 }
 
@@ -538,6 +547,7 @@ TEST(ExactYaw, OneFromTheEndOfTheWorldDoesNotDrownTheOthers) {
 
 TEST(ExactYaw, ArcsThatJustCloseAreAllOfTheCircle) {
   // a + b = c up to rounding: at most the last digit is beyond the bound.
+  int num_answers = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Problem problem = RandomProblem(8, 0.05, 0.5, seed);
     Random random(seed);
@@ -549,9 +559,11 @@ TEST(ExactYaw, ArcsThatJustCloseAreAllOfTheCircle) {
     }
     const auto exact = problem.Solve();
     if (!exact) continue;
+    ++num_answers;
     EXPECT_NEAR(exact->cost, LeastOverAllSubsets(problem), 1e-12)
         << "seed " << seed << ", yaw " << exact->target_from_source;
   }
+  EXPECT_GT(num_answers, 250);
 }
 
 TEST(ExactYaw, LengthsWhoseSquaresOverflowAreLeftOut) {

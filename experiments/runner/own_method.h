@@ -4,8 +4,8 @@
 // experiments/programs/methods.h. The program that runs an experiment supplies
 // it as a value.
 
-#ifndef QUATRO_EXPERIMENTS_PROGRAMS_OWN_METHOD_H_
-#define QUATRO_EXPERIMENTS_PROGRAMS_OWN_METHOD_H_
+#ifndef QUATRO_EXPERIMENTS_RUNNER_OWN_METHOD_H_
+#define QUATRO_EXPERIMENTS_RUNNER_OWN_METHOD_H_
 
 #include <functional>
 #include <string>
@@ -26,4 +26,4 @@ struct OwnMethod {
 
 }  // namespace quatro
 
-#endif  // QUATRO_EXPERIMENTS_PROGRAMS_OWN_METHOD_H_
+#endif  // QUATRO_EXPERIMENTS_RUNNER_OWN_METHOD_H_
