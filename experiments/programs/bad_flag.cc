@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <set>
+#include <string_view>
 
 namespace quatro {
 namespace {
@@ -69,10 +71,48 @@ bool CanHold(const gflags::CommandLineFlagInfo& flag,
               .empty();
 }
 
+std::string Twice(const std::string& name) {
+  return "--" + name + ": is given twice, must be given once";
+}
+
+bool IsPartOfWord(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+         (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == '/';
+}
+
+bool IsFlag(const std::string& name) {
+  gflags::CommandLineFlagInfo flag;
+  return gflags::GetCommandLineFlagInfo(name.c_str(), &flag) &&
+         !IsOfGflags(flag);
+}
+
 }  // namespace
+
+std::string SpellAsFlags(std::string message) {
+  constexpr std::string_view kIs = " = ";
+  const std::size_t begin = message.find(kIs);
+  if (begin != std::string::npos && IsFlag(message.substr(0, begin))) {
+    message = "--" + message.replace(begin, kIs.size(), "=");
+  }
+  // The one option that the library names in the middle of a message.
+  constexpr std::string_view kPointFloats = "point_floats";
+  for (std::size_t i = message.find(kPointFloats);
+       i != std::string::npos && IsFlag(std::string(kPointFloats));
+       i = message.find(kPointFloats, i + kPointFloats.size())) {
+    const std::size_t end = i + kPointFloats.size();
+    if ((i > 0 && IsPartOfWord(message[i - 1])) ||
+        (end < message.size() && IsPartOfWord(message[end]))) {
+      continue;
+    }
+    message.insert(i, "--");
+    i += 2;
+  }
+  return message;
+}
 
 std::optional<std::string> TellBadFlag(
     const std::vector<std::string>& arguments) {
+  std::set<std::string> given;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     const std::size_t begin = argument.find_first_not_of('-');
@@ -83,6 +123,7 @@ std::optional<std::string> TellBadFlag(
     if (name == "undefok") return std::nullopt;
     gflags::CommandLineFlagInfo flag;
     if (gflags::GetCommandLineFlagInfo(name.c_str(), &flag)) {
+      if (!IsOfGflags(flag) && !given.insert(name).second) return Twice(name);
       const bool is_alone = equals == std::string::npos;
       if (is_alone && flag.type == "bool") continue;
       // Its value may start with a dash.
@@ -95,6 +136,7 @@ std::optional<std::string> TellBadFlag(
     if (name.starts_with("no") &&
         gflags::GetCommandLineFlagInfo(name.c_str() + 2, &flag) &&
         flag.type == "bool") {
+      if (!given.insert(flag.name).second) return Twice(flag.name);
       continue;
     }
     const std::string nearest = NearestFlag(name);

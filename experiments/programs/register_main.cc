@@ -244,7 +244,7 @@ int Main(int argc, char** argv) {
   if (!OptionsFromFlags({}, {}, &error)) return Fail(error);
 
   const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
-  if (!reading.IsValid(&error)) return Fail("--" + error);
+  if (!reading.IsValid(&error)) return Fail(error);
   const auto source = quatro::ReadCloud(FLAGS_source, reading, &error);
   if (!source) return Fail(error);
   const auto target = quatro::ReadCloud(FLAGS_target, reading, &error);

@@ -147,7 +147,7 @@ int Main(int argc, char** argv) {
                 std::to_string(graph->ids[i]) + " (the next one)");
   }
   const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
-  if (!reading.IsValid(&error)) return Fail("--" + error);
+  if (!reading.IsValid(&error)) return Fail(error);
   std::vector<quatro::PointCloud> scans;
   for (const std::string& path : paths) {
     auto scan = quatro::ReadCloud(path, reading, &error);

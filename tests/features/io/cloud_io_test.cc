@@ -273,7 +273,7 @@ TEST_F(CloudIoTest, BinRefusesHalfAPoint) {
   EXPECT_EQ(ErrorOf("scan.bin", std::string(1993, '\0')),
             "size 1993 bytes is not a multiple of 16 (x y z intensity as "
             "float32); is it truncated, or of another layout "
-            "(--point_floats)?");
+            "(point_floats)?");
 }
 
 TEST_F(CloudIoTest, BinDropsAndCountsWhatIsNotFinite) {
