@@ -364,10 +364,10 @@ void BindSummaries(py::module_* module) {
           "contradicted_share, log_likelihood_ratio. Empty without a search.")
       .def_readonly("num_source_dropped",
                     &Registration::num_source_dropped,
-                    "int: points of the source that are not finite.")
+                    "int: points of the source that are not finite, or zero.")
       .def_readonly("num_target_dropped",
                     &Registration::num_target_dropped,
-                    "int: points of the target that are not finite.");
+                    "int: points of the target that are not finite, or zero.");
 
   py::class_<Alignment>(*module, "Alignment", "The result of local alignment.")
       .def("__repr__",

@@ -25,7 +25,10 @@
 #include "robust/registration/presets.h"
 #include "robust/registration/registration.h"
 
-DEFINE_string(source, "", "The cloud to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(source,
+              "",
+              "The cloud to move: .bin (KITTI), .ply, .pcd, .npy, .xyz, .txt "
+              "or .csv, or one of these with .gz");
 DEFINE_string(target, "", "The cloud to move it onto");
 DEFINE_int32(point_floats,
              0,
