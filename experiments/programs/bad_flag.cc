@@ -10,6 +10,7 @@
 #include <numeric>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace quatro {
 namespace {
@@ -80,6 +81,29 @@ bool IsPartOfWord(char c) {
          (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == '/';
 }
 
+// Options that the library names within its messages, and their flags.
+constexpr std::pair<const char*, const char*> kOptionsInMessages[] = {
+    {"point_floats", "point_floats"},
+    {"ins_mode", "ins_mode"},
+    {"source_rpy", "source_rpy_deg"},
+    {"target_rpy", "target_rpy_deg"},
+    {"max_translation", "max_translation"},
+    {"max_yaw_deg", "max_yaw_deg"}};
+
+void ReplaceWord(std::string_view word,
+                 const std::string& replacement,
+                 std::string* message) {
+  std::size_t i = 0;
+  while ((i = message->find(word, i)) != std::string::npos) {
+    const std::size_t end = i + word.size();
+    const bool is_part =
+        (i > 0 && IsPartOfWord((*message)[i - 1])) ||
+        (end < message->size() && IsPartOfWord((*message)[end]));
+    if (!is_part) message->replace(i, word.size(), replacement);
+    i += is_part ? word.size() : replacement.size();
+  }
+}
+
 bool IsFlag(const std::string& name) {
   gflags::CommandLineFlagInfo flag;
   return gflags::GetCommandLineFlagInfo(name.c_str(), &flag) &&
@@ -89,23 +113,18 @@ bool IsFlag(const std::string& name) {
 }  // namespace
 
 std::string SpellAsFlags(std::string message) {
-  constexpr std::string_view kIs = " = ";
+  constexpr std::string_view kIs = " = ", kMethod = "method ";
+  if (message.starts_with("num_threads = ") && IsFlag("threads")) {
+    message.erase(0, 4);
+  }
   const std::size_t begin = message.find(kIs);
   if (begin != std::string::npos && IsFlag(message.substr(0, begin))) {
     message = "--" + message.replace(begin, kIs.size(), "=");
+  } else if (message.starts_with(kMethod) && IsFlag("method")) {
+    message = "--" + message.replace(0, kMethod.size(), "method=");
   }
-  // The one option that the library names in the middle of a message.
-  constexpr std::string_view kPointFloats = "point_floats";
-  for (std::size_t i = message.find(kPointFloats);
-       i != std::string::npos && IsFlag(std::string(kPointFloats));
-       i = message.find(kPointFloats, i + kPointFloats.size())) {
-    const std::size_t end = i + kPointFloats.size();
-    if ((i > 0 && IsPartOfWord(message[i - 1])) ||
-        (end < message.size() && IsPartOfWord(message[end]))) {
-      continue;
-    }
-    message.insert(i, "--");
-    i += 2;
+  for (const auto& [option, flag] : kOptionsInMessages) {
+    if (IsFlag(flag)) ReplaceWord(option, "--" + std::string(flag), &message);
   }
   return message;
 }

@@ -20,7 +20,8 @@ std::optional<std::string> TellBadFlag(
     const std::vector<std::string>& arguments);
 
 // A message of the library with its options spelled as flags of this program,
-// if it has them: "voxel_size = -1, must be > 0" begins with --voxel_size=-1.
+// if it has them: "voxel_size = -1, must be > 0" begins with --voxel_size=-1,
+// and "method fgr works" with --method=fgr.
 std::string SpellAsFlags(std::string message);
 
 }  // namespace quatro

@@ -12,6 +12,8 @@ DEFINE_double(test_voxel_size, 0.3, "");
 DEFINE_bool(test_explain, false, "");
 DEFINE_uint64(test_seed, 0, "");
 DEFINE_int32(point_floats, 0, "");
+DEFINE_string(method, "", "");
+DEFINE_string(source_rpy_deg, "", "");
 
 namespace quatro {
 namespace {
@@ -67,7 +69,7 @@ TEST(BadFlag, AFlagIsGivenOnce) {
             std::nullopt);
 }
 
-TEST(SpellAsFlags, OptionsAtTheStartAndPointFloatsAnywhere) {
+TEST(SpellAsFlags, OptionsAtTheStartAndKnownOnesAnywhere) {
   EXPECT_EQ(SpellAsFlags("test_voxel_size = -1, must be > 0"),
             "--test_voxel_size=-1, must be > 0");
   EXPECT_EQ(SpellAsFlags("other = -1, must be > 0"), "other = -1, must be > 0");
@@ -75,6 +77,10 @@ TEST(SpellAsFlags, OptionsAtTheStartAndPointFloatsAnywhere) {
                          "set point_floats=8 or point_floats=4"),
             "a.bin: is it another layout (--point_floats)? If so, set "
             "--point_floats=8 or --point_floats=4");
+  EXPECT_EQ(SpellAsFlags("method fgr works on clouds; set source_rpy"),
+            "--method=fgr works on clouds; set --source_rpy_deg");
+  EXPECT_EQ(SpellAsFlags("--method=fgr: ins_mode needs my_ins_mode"),
+            "--method=fgr: ins_mode needs my_ins_mode");  // No such flag here.
   for (const std::string same : {"my_point_floats.bin: is empty",
                                  "point_floats.bin: is empty",
                                  "--point_floats=2, must be 3"}) {
