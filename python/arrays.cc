@@ -82,7 +82,8 @@ PointCloud MakeCloud(const PointsArgument& points) {
   cloud.points.resize(3, view.cols());
   Eigen::Index kept = 0;
   for (Eigen::Index i = 0; i < view.cols(); ++i) {
-    if (view.col(i).allFinite()) cloud.points.col(kept++) = view.col(i);
+    const bool is_measured = view.col(i).allFinite() && !view.col(i).isZero(0);
+    if (is_measured) cloud.points.col(kept++) = view.col(i);
   }
   cloud.num_dropped = view.cols() - kept;
   if (cloud.num_dropped > 0) cloud.points.conservativeResize(3, kept);

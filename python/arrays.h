@@ -35,8 +35,8 @@ class PointsArgument {
   pybind11::array_t<double> array_;
 };
 
-// Makes a cloud as the file readers do: points that are not finite are dropped
-// and counted.
+// Makes a cloud as the file readers do: points that are not finite or at the
+// origin are dropped and counted.
 PointCloud MakeCloud(const PointsArgument& points);
 
 // A pose given as a (4, 4) array, its rotation accurate to 1e-6. Throws

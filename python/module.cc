@@ -298,7 +298,8 @@ constexpr char kRegister[] =
 Finds the pose between two scans of one place, far apart or not.
 
 source, target: (N, 3) arrays of points [m] or Open3D point clouds; x ahead, z
-  up, the sensor at the origin. Points that are not finite are left out.
+  up, the sensor at the origin. Points that are not finite or exactly at
+  the origin are left out.
 preset: auto (all lengths from the clouds), kitti (64 beams outdoors), paper,
   kitti_paper or reference (as published), or indoor (16 beams). With auto, a
   given voxel_size decides the other lengths.
@@ -384,10 +385,11 @@ void BindFunctions(py::module_* module) {
       py::arg("path"),
       py::arg("point_floats") = 0,
       "read_cloud(path, point_floats=0)\n--\n\n"
-      "(N, 3) float64 of a .bin, .ply or .pcd file [m]; points that are "
-      "not finite\nare left out. A point of a .bin has `point_floats` "
-      "numbers, x, y, z first; 0 infers\nhow many. Raises ValueError "
-      "with what is wrong with the file.");
+      "(N, 3) float64 [m] of a .bin, .ply, .pcd, .npy, .xyz, .txt or .csv "
+      "file, or of\none of these with .gz. Points that are not finite and "
+      "points at the origin are\nleft out. A point of a .bin has "
+      "`point_floats` numbers, x, y, z first; 0 infers\nhow many. Raises "
+      "ValueError with what is wrong with the file.");
   module->def("methods",
               &MethodDict,
               "methods()\n--\n\n"

@@ -301,10 +301,10 @@ void BindSearch(py::class_<Registration>* registration) {
           "contradicted_share, log_likelihood_ratio. Empty without a search.")
       .def_readonly("num_source_dropped",
                     &Registration::num_source_dropped,
-                    "int: points of the source that are not finite.")
+                    "int: points of the source that are not finite, or zero.")
       .def_readonly("num_target_dropped",
                     &Registration::num_target_dropped,
-                    "int: points of the target that are not finite.");
+                    "int: points of the target that are not finite, or zero.");
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ glog               | libgoogle-glog-dev | glog-devel             | google-glog  
 gflags             | libgflags-dev      | gflags-devel           | gflags            | gflags            | gflags
 nanoflann 1.4      | libnanoflann-dev   | nanoflann-devel        | -                 | nanoflann         | nanoflann
 liblzf             | liblzf-dev         | liblzf-devel           | -                 | liblzf            | liblzf
+zlib               | zlib1g-dev         | zlib-devel             | zlib              | zlib              | zlib
 nlohmann-json 3    | nlohmann-json3-dev | json-devel             | nlohmann-json     | nlohmann-json     | nlohmann_json
 Embree 3           | libembree-dev      | embree-devel           | embree            | embree            | embree
 GoogleTest         | libgtest-dev       | gtest-devel            | gtest             | googletest        | gtest

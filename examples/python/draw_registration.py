@@ -20,7 +20,7 @@ import numpy as np
 import quatro
 
 parser = argparse.ArgumentParser(description='Registers two clouds and draws them.')
-parser.add_argument('source', help='.bin (KITTI), .ply or .pcd')
+parser.add_argument('source', help='.bin (KITTI), .ply, .pcd, .npy, .xyz, .txt or .csv')
 parser.add_argument('target')
 parser.add_argument('--preset', default='kitti', choices=quatro.presets())
 parser.add_argument('--method', default='quatro', choices=quatro.methods())

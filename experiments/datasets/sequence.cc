@@ -12,6 +12,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "features/io/cloud_format.h"
+
 namespace quatro {
 namespace {
 
@@ -44,12 +46,13 @@ std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
   for (fs::directory_iterator it(place, status), end; !status && it != end;
        it.increment(status)) {
     const fs::path& path = it->path();
-    const std::string ending = path.extension().string();
-    if (IsHiddenFile(path) ||
-        (ending != ".bin" && ending != ".ply" && ending != ".pcd")) {
+    const auto type = FindCloudFileType(path.string());
+    // Text beside the scans is of time stamps, poses and calibration.
+    if (IsHiddenFile(path) || !type || type->format == CloudFormat::kText) {
       continue;
     }
-    const auto number = FrameNumber(path.stem().string());
+    const fs::path stem = type->is_gzip ? path.stem().stem() : path.stem();
+    const auto number = FrameNumber(stem.string());
     if (!number) {
       *error =
           path.string() +
@@ -67,7 +70,7 @@ std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
     return std::nullopt;
   }
   if (scans.empty()) {
-    *error = place.string() + ": holds no .bin, .ply or .pcd";
+    *error = place.string() + ": holds no .bin, .ply, .pcd or .npy";
     return std::nullopt;
   }
   return scans;

@@ -22,8 +22,9 @@ namespace quatro {
 // Whether the name starts with a dot, as macOS's "._000001.bin" does.
 bool IsHiddenFile(const std::filesystem::path& path);
 
-// Frame number -> path, of the .bin, .ply and .pcd in `folder`/velodyne or,
-// without such a folder, in `folder`. Hidden files are passed over. Nullopt
+// Frame number -> path, of the .bin, .ply, .pcd and .npy in `folder`/velodyne
+// or, without such a folder, in `folder`; each may be compressed (.gz). Hidden
+// files are passed over. Nullopt
 // with *error set if there are none, a name is no number, or two have the same.
 std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
                                                     std::string* error);

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <set>
+#include <string_view>
+#include <utility>
 
 namespace quatro {
 namespace {
@@ -69,10 +72,66 @@ bool CanHold(const gflags::CommandLineFlagInfo& flag,
               .empty();
 }
 
+std::string Twice(const std::string& name) {
+  return "--" + name + ": is given twice, must be given once";
+}
+
+bool IsPartOfWord(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+         (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == '/';
+}
+
+// Options that the library names within its messages, and their flags.
+constexpr std::pair<const char*, const char*> kOptionsInMessages[] = {
+    {"point_floats", "point_floats"},
+    {"ins_mode", "ins_mode"},
+    {"source_rpy", "source_rpy_deg"},
+    {"target_rpy", "target_rpy_deg"},
+    {"max_translation", "max_translation"},
+    {"max_yaw_deg", "max_yaw_deg"}};
+
+void ReplaceWord(std::string_view word,
+                 const std::string& replacement,
+                 std::string* message) {
+  std::size_t i = 0;
+  while ((i = message->find(word, i)) != std::string::npos) {
+    const std::size_t end = i + word.size();
+    const bool is_part =
+        (i > 0 && IsPartOfWord((*message)[i - 1])) ||
+        (end < message->size() && IsPartOfWord((*message)[end]));
+    if (!is_part) message->replace(i, word.size(), replacement);
+    i += is_part ? word.size() : replacement.size();
+  }
+}
+
+bool IsFlag(const std::string& name) {
+  gflags::CommandLineFlagInfo flag;
+  return gflags::GetCommandLineFlagInfo(name.c_str(), &flag) &&
+         !IsOfGflags(flag);
+}
+
 }  // namespace
+
+std::string SpellAsFlags(std::string message) {
+  constexpr std::string_view kIs = " = ", kMethod = "method ";
+  if (message.starts_with("num_threads = ") && IsFlag("threads")) {
+    message.erase(0, 4);
+  }
+  const std::size_t begin = message.find(kIs);
+  if (begin != std::string::npos && IsFlag(message.substr(0, begin))) {
+    message = "--" + message.replace(begin, kIs.size(), "=");
+  } else if (message.starts_with(kMethod) && IsFlag("method")) {
+    message = "--" + message.replace(0, kMethod.size(), "method=");
+  }
+  for (const auto& [option, flag] : kOptionsInMessages) {
+    if (IsFlag(flag)) ReplaceWord(option, "--" + std::string(flag), &message);
+  }
+  return message;
+}
 
 std::optional<std::string> TellBadFlag(
     const std::vector<std::string>& arguments) {
+  std::set<std::string> given;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     const std::size_t begin = argument.find_first_not_of('-');
@@ -83,6 +142,7 @@ std::optional<std::string> TellBadFlag(
     if (name == "undefok") return std::nullopt;
     gflags::CommandLineFlagInfo flag;
     if (gflags::GetCommandLineFlagInfo(name.c_str(), &flag)) {
+      if (!IsOfGflags(flag) && !given.insert(name).second) return Twice(name);
       const bool is_alone = equals == std::string::npos;
       if (is_alone && flag.type == "bool") continue;
       // Its value may start with a dash.
@@ -95,6 +155,7 @@ std::optional<std::string> TellBadFlag(
     if (name.starts_with("no") &&
         gflags::GetCommandLineFlagInfo(name.c_str() + 2, &flag) &&
         flag.type == "bool") {
+      if (!given.insert(flag.name).second) return Twice(flag.name);
       continue;
     }
     const std::string nearest = NearestFlag(name);

@@ -27,7 +27,7 @@
 
 DEFINE_string(source,
               "",
-              "Source cloud, the one to move: .bin (KITTI), .ply or .pcd");
+              "Source cloud, the one to move: .bin (KITTI), .ply, .pcd, ...");
 DEFINE_string(target,
               "",
               "Target cloud; without source and target: a simulated street");

@@ -102,7 +102,7 @@ std::string ExplainFrontEnd(const Json& report) {
   const auto dropped = [&](const char* name) {
     const Json count = At(counts, {name});
     return NumberOr(count, 0.0) > 0.0
-               ? " (" + Number(count) + " not finite, dropped)"
+               ? " (" + Number(count) + " not finite or zero, dropped)"
                : std::string();
   };
   std::string text = Paragraph(

@@ -25,7 +25,8 @@
 DEFINE_string(input,
               "",
               "Folder of a drive in KITTI's layout, or of its scans: .bin, "
-              ".ply or .pcd named by frame number. Required");
+              ".ply, .pcd or .npy, also with .gz, named by frame number. "
+              "Required");
 DEFINE_string(method, "aloam", "See --list_methods");
 DEFINE_bool(list_methods, false, "Tell the methods and stop");
 DEFINE_int32(point_floats,

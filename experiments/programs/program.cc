@@ -115,7 +115,7 @@ int Fail(const std::string& error) {
   std::fprintf(stderr,
                "%s: %s\n",
                gflags::ProgramInvocationShortName(),
-               OneLine(error).c_str());
+               SpellAsFlags(OneLine(error)).c_str());
   return kExitBadInput;
 }
 

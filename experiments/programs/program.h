@@ -31,7 +31,8 @@ int RunProgram(const std::function<int(int argc, char** argv)>& run,
 // the flags that sources in experiments/programs/ define.
 std::optional<int> ParseFlags(const std::string& usage, int argc, char** argv);
 
-// Prints "<program>: <error>" on stderr and returns kExitBadInput.
+// Prints "<program>: <error>" on stderr, with options spelled as flags
+// (bad_flag.h), and returns kExitBadInput.
 int Fail(const std::string& error);
 
 }  // namespace quatro

@@ -26,7 +26,10 @@
 #include "robust/registration/presets.h"
 #include "robust/registration/registration.h"
 
-DEFINE_string(source, "", "The cloud to move: .bin (KITTI), .ply or .pcd");
+DEFINE_string(source,
+              "",
+              "The cloud to move: .bin (KITTI), .ply, .pcd, .npy, .xyz, .txt "
+              "or .csv, or one of these with .gz");
 DEFINE_string(target, "", "The cloud to move it onto");
 DEFINE_int32(point_floats,
              0,
@@ -155,10 +158,7 @@ struct Registered {
 // input cannot be used.
 std::optional<Registered> ReadAndRegister(std::string* error) {
   const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
-  if (!reading.IsValid(error)) {
-    *error = "--" + *error;
-    return std::nullopt;
-  }
+  if (!reading.IsValid(error)) return std::nullopt;
   auto source = quatro::ReadCloud(FLAGS_source, reading, error);
   if (!source) return std::nullopt;
   auto target = quatro::ReadCloud(FLAGS_target, reading, error);

@@ -166,10 +166,7 @@ bool IsOdometryOf(const quatro::PoseGraph& graph,
 std::optional<std::vector<quatro::PointCloud>> ReadScans(
     const std::vector<std::string>& paths, std::string* error) {
   const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
-  if (!reading.IsValid(error)) {
-    *error = "--" + *error;
-    return std::nullopt;
-  }
+  if (!reading.IsValid(error)) return std::nullopt;
   std::vector<quatro::PointCloud> scans;
   for (const std::string& path : paths) {
     auto scan = quatro::ReadCloud(path, reading, error);

@@ -46,7 +46,8 @@ DEFINE_string(
     "of them without overlap");
 DEFINE_string(world,
               "street",
-              "For pairs: street, crossing, hill, corridor, hall or symmetric");
+              "For pairs: street, crossing, hill, corridor, hall, symmetric or "
+              "room (--max_distance of at most 3)");
 DEFINE_string(drive,
               "00",
               "For drives: 00, 02, 05, 06, 07, 08 (like KITTI's, in cities) or "
@@ -76,7 +77,8 @@ DEFINE_int32(features,
 DEFINE_string(
     sensor,
     "auto",
-    "For pairs and drives: hdl64e, vlp16 or os1_64; auto: the usual one");
+    "For pairs and drives: hdl64e, vlp16, os1_64, os1_128, livox (narrow), "
+    "tls (terrestrial, 11 million rays) or depth_camera; auto: the usual one");
 DEFINE_double(ins_std_deg,
               0.5,
               "For pairs: standard deviation of each angle of the INS [deg]");

@@ -135,31 +135,19 @@ std::vector<double> Hdl64Elevations() {
 }
 
 bool LidarOptions::IsValid(std::string* error) const {
+  if (!RayPattern::IsValid(error)) return false;
   std::ostringstream problem;
-  const auto is_steep = [](double elevation) {
-    return !(std::abs(elevation) < M_PI / 2.0);
-  };
-  const auto steep =
-      std::find_if(elevations.begin(), elevations.end(), is_steep);
-  if (elevations.empty()) {
-    problem << "elevations is empty, must have one number per beam";
-  } else if (steep != elevations.end()) {
-    problem << "elevations[" << steep - elevations.begin() << "] = " << *steep
-            << ", must be within +-pi/2";
-  } else if (!azimuth_offsets.empty() &&
-             azimuth_offsets.size() != elevations.size()) {
-    problem << "azimuth_offsets has " << azimuth_offsets.size()
-            << " numbers, must have none or one per beam, "
-            << elevations.size();
-  } else if (num_columns < 1) {
-    problem << "num_columns = " << num_columns << ", must be >= 1";
-  } else if (!(min_range >= 0.0)) {
+  if (!(min_range >= 0.0)) {
     problem << "min_range = " << min_range << ", must be >= 0";
   } else if (!(max_range > min_range) || !std::isfinite(max_range)) {
     problem << "max_range = " << max_range
             << ", must be finite and > min_range = " << min_range;
   } else if (!(range_sigma >= 0.0) || !std::isfinite(range_sigma)) {
     problem << "range_sigma = " << range_sigma << ", must be finite and >= 0";
+  } else if (!(range_sigma_growth >= 0.0) ||
+             !std::isfinite(range_sigma_growth)) {
+    problem << "range_sigma_growth = " << range_sigma_growth
+            << ", must be finite and >= 0";
   } else if (!(dropout_rate >= 0.0 && dropout_rate <= 1.0)) {
     problem << "dropout_rate = " << dropout_rate << ", must be in [0, 1]";
   }
@@ -232,16 +220,8 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
   const auto num_columns = static_cast<size_t>(options.num_columns);
   const double phase = RayNoise(id, kNoRay).Uniform(kPhase);
   const auto cast = [&](size_t beam, size_t column) -> Echo {
-    const double elevation = options.elevations[beam];
-    const double turned = 2.0 * M_PI * (static_cast<double>(column) + phase) /
-                          static_cast<double>(num_columns);
-    const double azimuth = options.azimuth_offsets.empty()
-                               ? -turned
-                               : options.azimuth_offsets[beam] - turned;
-    const Vector3d direction(std::cos(elevation) * std::cos(azimuth),
-                             std::cos(elevation) * std::sin(azimuth),
-                             std::sin(elevation));  // Equation (1).
-    const Rigid3 pose = PoseAt(world_from_sensor, sweep, turned / (2.0 * M_PI));
+    const auto [direction, fraction] = RayOf(options, beam, column, phase);
+    const Rigid3 pose = PoseAt(world_from_sensor, sweep, fraction);
     const Vector3d direction_in_world = pose.rotation * direction;
 
     RTCRayHit hit =
@@ -271,8 +251,10 @@ PointCloud LidarScene::Scan(const Rigid3& world_from_sensor,
     const double brightness = reflectance * (0.35 + 0.65 * cos_incidence) *
                               (1.0 + 0.08 * noise.Normal(kIntensity));
     Echo echo;
-    echo.point =
-        direction * (range + options.range_sigma * noise.Normal(kRange));
+    const double sigma = options.range_sigma + options.range_sigma_growth *
+                                                   range *
+                                                   range;  // Equation (1).
+    echo.point = direction * (range + sigma * noise.Normal(kRange));
     echo.intensity = static_cast<float>(std::clamp(brightness, 0.0, 1.0));
     return echo;
   };

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A spinning lidar during one revolution, stationary or moving uniformly.
+// A lidar or a depth camera during one frame, stationary or moving uniformly.
 //
-// Beam b and column c have the direction
+// The ray d of a beam and a column (ray_pattern.h) measures d (r + n), with the
+// distance r to the first triangle on it and
 //
-//   d = (cos e cos a, cos e sin a, sin e),   e = elevation[b],
-//   a = offset[b] - 2 pi (c + phase) / num_columns,                      (1)
+//   n ~ N(0, sigma^2),   sigma = range_sigma + range_sigma_growth r^2.     (1)
 //
-// with the phase in [0, 1) of the frame. They measure d (r + n), with the
-// distance r to the first triangle on the ray and n ~ N(0, range_sigma^2). An
-// echo is missed with probability
+// An echo is missed with probability
 //
 //   1 - (1 - dropout_rate) / (1 + (r / r0)^8),
 //   r0 = max_range sqrt(reflectance / 0.8 * sqrt(cos(incidence))),        (2)
@@ -26,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/simulator/ray_pattern.h"
 #include "experiments/simulator/scene.h"
 #include "features/base/rigid3.h"
 #include "features/io/point_cloud.h"
@@ -40,14 +39,18 @@ namespace quatro {
 // steps of 1/3 deg, 32 from -8.83 to -24.33 deg in steps of 1/2 deg. [rad]
 std::vector<double> Hdl64Elevations();
 
-struct LidarOptions {
-  std::vector<double> elevations = Hdl64Elevations();  // [rad]
-  std::vector<double> azimuth_offsets;  // Per beam [rad]; empty: all 0.
-  int num_columns = 2083;               // Per revolution: every 0.1728 deg.
-  double min_range = 0.9;               // [m]
-  double max_range = 120.0;             // [m]
-  double range_sigma = 0.02;            // [m]
-  double dropout_rate = 0.05;           // Probability of missing any echo.
+// A sensor; the default is the HDL-64E, a column every 0.1728 deg.
+struct LidarOptions : RayPattern {
+  LidarOptions() {
+    elevations = Hdl64Elevations();
+    num_columns = 2083;
+  }
+
+  double min_range = 0.9;           // [m]
+  double max_range = 120.0;         // [m]
+  double range_sigma = 0.02;        // [m]
+  double range_sigma_growth = 0.0;  // As of stereo and patterns [1/m].
+  double dropout_rate = 0.05;       // Probability of missing any echo.
 
   bool IsValid(std::string* error) const;
 };
@@ -58,12 +61,12 @@ struct ScanId {
   uint64_t frame = 0;
 };
 
-// The motion of the sensor during one revolution. Points are in the frame of
-// the sensor at their own time, as measured: column c of n is seen from
+// The motion of the sensor during one frame. Points are in the frame of the
+// sensor at their own time, as measured: a ray at the fraction f is seen from
 //
-//   R exp((f - 1/2) turn),  t + (f - 1/2) velocity,   f = (c + phase) / n,  (3)
+//   R exp((f - 1/2) turn),  t + (f - 1/2) velocity,                        (3)
 //
-// where (R, t) is the pose in the middle of the revolution.
+// where (R, t) is the pose in the middle of the frame.
 struct Sweep {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // In the world [m].
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // Turn of the sensor [rad].

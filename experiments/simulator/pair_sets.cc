@@ -44,8 +44,9 @@ std::string OtherWorld(const PairSetOptions& set,
                        WorldOptions* world) {
   const bool may_be_far =
       set.world == WorldKind::kStreet || set.world == WorldKind::kHill;
-  const bool has_floors =
-      set.world == WorldKind::kHall || set.world == WorldKind::kCorridor;
+  const bool has_floors = set.world == WorldKind::kHall ||
+                          set.world == WorldKind::kCorridor ||
+                          set.world == WorldKind::kRoom;
   const bool is_same_world = random.Uniform() < 1.0 / 3.0;
   if (is_same_world && may_be_far) {
     world->distance = kFarApart;
@@ -57,6 +58,18 @@ std::string OtherWorld(const PairSetOptions& set,
   }
   world->seed = random.Next();
   return "other_seed";
+}
+
+// The largest yaw of the source: that of the options, or half of a narrow view.
+double MaxYaw(const PairSetOptions& options) {
+  std::string ignored;
+  const bool is_usual = options.sensor == "auto";
+  if (is_usual && options.world != WorldKind::kRoom) return options.max_yaw;
+  const auto lidar =
+      MakeSensor(is_usual ? "depth_camera" : options.sensor, &ignored);
+  const bool is_narrow = lidar && lidar->width < 2.0 * M_PI;
+  return is_narrow ? std::min(options.max_yaw, 0.5 * lidar->width)
+                   : options.max_yaw;
 }
 
 }  // namespace
@@ -110,7 +123,8 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
   world_options.seed = random.Next() >> 11;  // So that it fits into a double.
   world_options.distance =
       Uniform(random, options.min_distance, options.max_distance);
-  world_options.yaw = Uniform(random, -options.max_yaw, options.max_yaw);
+  const double max_yaw = MaxYaw(options);
+  world_options.yaw = Uniform(random, -max_yaw, max_yaw);
   world_options.tilt = Uniform(random, options.min_tilt, options.max_tilt);
   world_options.tilt_sigma = options.tilt_sigma;
   world_options.num_features = options.num_features;

@@ -25,8 +25,8 @@ struct PairSetOptions {
   uint64_t seed = 1;
 
   // Ranges of uniform distributions: the distance of the places along the path
-  // [m]; the yaw of the source, in either direction [rad]; for hills, the tilt
-  // [rad].
+  // [m]; the yaw of the source, in either direction [rad], at most half of the
+  // width of a sensor with a narrow view; for hills, the tilt [rad].
   double min_distance = 0.0;
   double max_distance = 30.0;
   double max_yaw = 3.15;

@@ -302,6 +302,42 @@ Scene MakeHall(const HallOptions& options) {
   return HallBuilder(options).Build();
 }
 
+Scene MakeRoom(const RoomOptions& options) {
+  constexpr double kFromWall = 0.6;  // Of the middle of furniture [m].
+  Random random(Mix(options.seed) ^ 7);
+  Random contents(Mix(options.contents_seed) ^ 8);
+  Scene scene;
+  AddLevel(options.length, options.width, 0.0, 0.4f, scene);
+  AddLevel(options.length, options.width, options.height, 0.7f, scene);
+  for (int i = 0; i < 4; ++i) {
+    const double half = WallLength(options, i) / 2.0;
+    std::vector<WallPatch> patches;
+    for (double x = -half + Uniform(random, 1.0, 1.5); x < half - 1.0;
+         x += Uniform(random, 1.5, 3.0)) {
+      AddWallFeature(x, options.height, false, random, patches);
+    }
+    const Rigid3 frame = WallFrame(options, i);
+    scene.AddWall(frame,
+                  {-half,
+                   half,
+                   0.0,
+                   options.height,
+                   0.0,
+                   static_cast<float>(Uniform(random, 0.4, 0.8))},
+                  patches);
+    for (double x = -half + Uniform(contents, 0.5, 1.5); x < half - 0.5;
+         x += Uniform(contents, 0.8, 2.0)) {
+      if (contents.Uniform() < 0.4) {
+        AddThingAtWall(frame * Place(x, 0.0, 0.0), contents, scene);
+      } else {
+        const double yaw = Uniform(contents, -0.3, 0.3);
+        AddFurniture(frame * Place(x, kFromWall, yaw), contents, scene);
+      }
+    }
+  }
+  return scene;
+}
+
 Scene MakeColonnade(uint64_t seed,
                     double height,
                     const Eigen::Vector2d& spacing) {

@@ -6,6 +6,7 @@
 //   hall       pillars, partitions, furniture, shop fronts in its walls
 //   colonnade  pillars on a grid that extends beyond the sensor's range
 //   terrace    a street of identical houses on both sides
+//   room       a room of a few meters with furniture along its walls
 //
 // The world frame has its origin on the floor in the middle, x along the longer
 // side and z up. A place with a symmetry S looks the same from a sensor at T as
@@ -57,6 +58,9 @@ struct HallOptions : RoomOptions {
 };
 
 Scene MakeHall(const HallOptions& options);
+
+// Furniture at the walls alone, so that the middle is free. No symmetry.
+Scene MakeRoom(const RoomOptions& options);
 
 // S: shifts by spacing.x() along x and by spacing.y() along y, and R_z(pi).
 // `height` is that of the ceiling; there is a pillar at the origin.

@@ -25,7 +25,10 @@ constexpr std::pair<WorldKind, const char*> kNames[] = {
     {WorldKind::kHill, "hill"},
     {WorldKind::kCorridor, "corridor"},
     {WorldKind::kHall, "hall"},
-    {WorldKind::kSymmetric, "symmetric"}};
+    {WorldKind::kSymmetric, "symmetric"},
+    {WorldKind::kRoom, "room"}};
+
+constexpr double kMaxDistanceInRoom = 3.0;  // [m]
 
 // Length of street before the first place and after the last [m].
 constexpr double kMargin = 90.0;
@@ -262,6 +265,36 @@ World MakeHallWorld(const WorldOptions& options,
   return world;
 }
 
+World MakeRoomWorld(const WorldOptions& options, Random& random) {
+  constexpr double kFromWall = 1.6;  // Clear of furniture [m].
+  RoomOptions room;
+  room.seed = options.seed;
+  room.contents_seed = Mix(options.seed ^ Mix(options.floor));
+  room.length = std::max(Uniform(random, 5.0, 8.0),
+                         options.distance + 2.0 * kFromWall + 1.0);
+  room.width = Uniform(random, 4.5, 6.5);
+  room.height = Uniform(random, 2.4, 3.2);
+  const Vector2d half =
+      Vector2d(room.length, room.width) / 2.0 - Vector2d::Constant(kFromWall);
+  const auto [source, target] =
+      DrawPlaces(half, half, options.distance, random);
+  World world;
+  world.variant = "room";
+  world.sensor = "depth_camera";
+  // Away from the nearer end of the room.
+  const double yaw =
+      (target.x() < 0.0 ? 0.0 : M_PI) + Uniform(random, -0.5, 0.5);
+  world.world_from_target = OnFloor(
+      target, Uniform(random, 1.0, 1.6), yaw, options.tilt_sigma, random);
+  world.world_from_source = OnFloor(source,
+                                    Uniform(random, 1.0, 1.6),
+                                    yaw + options.yaw,
+                                    options.tilt_sigma,
+                                    random);
+  world.scene = MakeRoom(room);
+  return world;
+}
+
 World MakeSymmetricWorld(const WorldOptions& options, Random& random) {
   const uint64_t variant = random.Below(4);
   if (variant == 0) return MakeHallWorld(options, true, random);
@@ -352,6 +385,9 @@ bool WorldOptions::IsValid(std::string* error) const {
              !(distance <= 50.0)) {
     problem << "distance = " << distance << " in a " << WorldName(kind)
             << ", must be <= 50";
+  } else if (kind == WorldKind::kRoom && !(distance <= kMaxDistanceInRoom)) {
+    problem << "distance = " << distance
+            << " in a room, must be <= " << kMaxDistanceInRoom;
   } else if (!std::isfinite(yaw)) {
     problem << "yaw = " << yaw << ", must be finite";
   } else if (!(tilt >= 0.0 && tilt <= 0.3)) {
@@ -380,6 +416,8 @@ World MakeWorld(const WorldOptions& options) {
       return MakeHallWorld(options, false, random);
     case WorldKind::kSymmetric:
       return MakeSymmetricWorld(options, random);
+    case WorldKind::kRoom:
+      return MakeRoomWorld(options, random);
   }
   return {};
 }

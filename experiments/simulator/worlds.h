@@ -12,6 +12,8 @@
 //   corridor   in a building or between walls beside a road, with few or no
 //              features that distinguish places along it (rooms.h)
 //   hall       a large room with pillars and furniture
+//   room       a room of a few meters with a depth camera held by hand, which
+//              looks from near one wall across the room; at most 3 m
 //   symmetric  a hall with a half turn, a colonnade, or a periodic corridor or
 //              terrace, exact except for a few objects in every other world.
 //              With its symmetry S, the scans also fit at
@@ -37,7 +39,8 @@ enum class WorldKind {
   kHill,
   kCorridor,
   kHall,
-  kSymmetric
+  kSymmetric,
+  kRoom
 };
 
 const char* WorldName(WorldKind kind);
@@ -60,8 +63,8 @@ struct WorldOptions {
   // seed, with none in every fifth corridor.
   int num_features = -1;
 
-  // For halls and corridors in buildings: another floor, with the same walls
-  // and pillars but other objects.
+  // For halls, rooms and corridors in buildings: another floor, with the same
+  // walls and pillars but other objects.
   uint64_t floor = 0;
 
   bool IsValid(std::string* error) const;

@@ -34,7 +34,7 @@ constexpr Signature kSignatures[] = {
      "7zXZ"sv,
      "is xz-compressed; run unxz"},
     {"\x28\xb5\x2f\xfd"sv, "is zstd-compressed; run unzstd"},
-    {"\x93NUMPY"sv, "is a NumPy array; save it as .ply, .pcd or .bin"},
+    {"\x93NUMPY"sv, "is a NumPy array; save it as text"},
     {"LASF"sv, "is a LAS file; convert it to .ply, .pcd or .bin"},
     {"\xff\xfe"sv, kUtf16},
     {"\xfe\xff"sv, kUtf16}};

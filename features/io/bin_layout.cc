@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -161,7 +162,7 @@ std::string WrongCoordinates(double largest) {
   std::snprintf(text,
                 sizeof(text),
                 "coordinates up to %.1e m. The file is probably not float32 x, "
-                "y, z, intensity; use --point_floats or convert it",
+                "y, z, intensity; set point_floats or convert it",
                 largest);
   return text;
 }
@@ -174,13 +175,35 @@ std::string NotWholePoints(std::size_t size, const BinLayout& layout) {
               : std::to_string(layout.num_values) + " numbers a point") +
          " as " +
          (layout.type == ScalarType::kFloat64 ? "float64" : "float32") +
-         "); is it truncated, or of another layout (--point_floats)?";
+         "); is it truncated, or of another layout (point_floats)?";
+}
+
+// Rows of c values that are not all zero, if they occur only at every k-th row,
+// are the first of k rows of one point, whose other columns are zero. Returns
+// the largest such k, and 1 if there are too few rows to tell.
+int FindZeroColumns(const Values& values, int c) {
+  const auto num_columns = static_cast<std::size_t>(c);
+  const std::size_t num_rows = values.Size() / num_columns;
+  std::size_t first = 0, step = 0;
+  for (std::size_t row = 0; row < num_rows && step != 1; ++row) {
+    bool is_zero = true;
+    for (std::size_t i = 0; i < num_columns && is_zero; ++i) {
+      is_zero = values.At(row * num_columns + i) == 0.0;
+    }
+    if (is_zero) continue;
+    if (step == 0 && first == 0) first = row + 1;
+    step = std::gcd(step, row + 1 - first);
+  }
+  const bool is_told = step > 1 && num_rows / step >= kMinNumPoints / 4;
+  return is_told ? static_cast<int>(std::min(step, kMinNumPoints)) : 1;
 }
 
 // Nullopt with *error set if the values have no columns or no coordinates.
-std::optional<int> NumValuesOf(std::span<const Sample> samples,
+std::optional<int> NumValuesOf(const Values& values,
+                               std::span<const Sample> samples,
                                std::string* error) {
-  const int num_values = FindNumValues(samples);
+  int num_values = FindNumValues(samples);
+  if (num_values > 0) num_values *= FindZeroColumns(values, num_values);
   std::vector<Sample> coordinates;
   for (const Sample& sample : samples) {
     if (num_values == 0 ||
@@ -196,13 +219,13 @@ std::optional<int> NumValuesOf(std::span<const Sample> samples,
   if (num_values == 0) {
     *error =
         "cannot tell how many numbers a point has; if x, y, z and intensity "
-        "as float32, use --point_floats=4";
+        "as float32, set point_floats=4";
     return std::nullopt;
   }
   constexpr int kMaxKnown = 6;
   if (num_values > kMaxKnown) {
     *error = "a point seems to have " + std::to_string(num_values) +
-             " numbers, not x, y, z, intensity; if so, use --point_floats=" +
+             " numbers, not x, y, z, intensity; if so, set point_floats=" +
              std::to_string(num_values);
     return std::nullopt;
   }
@@ -225,7 +248,7 @@ std::optional<BinLayout> FindBinLayout(std::string_view bytes,
     }
     // Without a sample there is not one finite point: others say so.
     if (num_values == 0 && !samples.empty()) {
-      const auto found = NumValuesOf(samples, error);
+      const auto found = NumValuesOf({bytes, layout.type}, samples, error);
       if (!found) return std::nullopt;
       layout.num_values = *found;
     }

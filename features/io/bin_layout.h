@@ -19,10 +19,11 @@
 //   - If G(c) is not below G(1), the values have no columns: an error.
 //
 // Non-finite values and points at the origin, three zeros in a row, are
-// ignored. The values are float64 if they make no sense as
-// float32: the low half of a double is either noise, of which two in five are
-// beyond 8e6, or empty. Coordinates beyond 8e6 m, the Earth's radius and a bit,
-// make no sense.
+// ignored. If all but every k-th row of c values are zero, a point has k c
+// values, the last of which are zero in all points. The values are float64 if
+// they make no sense as float32: the low half of a double is either noise, of
+// which two in five are beyond 8e6, or empty. Coordinates beyond 8e6 m, the
+// Earth's radius and a bit, make no sense.
 //
 // Fewer than 64 points are float32 x y z intensity without a test of (1).
 //

@@ -134,7 +134,8 @@ CloudBuilder::CloudBuilder(std::uint64_t max_num_points, bool has_intensity)
 
 void CloudBuilder::Add(const std::array<double, 4>& row) {
   const auto [x, y, z, intensity] = row;
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+  const bool is_zero = x == 0.0 && y == 0.0 && z == 0.0;
+  if (is_zero || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
     ++cloud_.num_dropped;
     return;
   }
@@ -152,7 +153,7 @@ std::optional<PointCloud> CloudBuilder::Build(std::string* error) {
     *error = cloud.num_dropped == 0
                  ? "points: there are none"
                  : "points: none of " + std::to_string(cloud.num_dropped) +
-                       " is finite";
+                       " is finite and not zero";
     return std::nullopt;
   }
   cloud.points.conservativeResize(3, num_points);

@@ -54,7 +54,7 @@ using CloudColumns = std::array<std::optional<std::size_t>, 4>;
 std::optional<CloudColumns> FindCloudColumns(
     const std::vector<std::string_view>& names, std::string* error);
 
-// Collects the rows of a file and keeps the finite points.
+// Collects the rows of a file and keeps the finite points that are not zero.
 class CloudBuilder {
  public:
   // Allocates `max_num_points` at once, so check this number against the size
@@ -64,7 +64,7 @@ class CloudBuilder {
   // Adds a row x, y, z, intensity. Call this at most max_num_points times.
   void Add(const std::array<double, 4>& row);
 
-  // Returns nullopt and sets *error if there is no finite point. The builder is
+  // Returns nullopt and sets *error if no point is left. The builder is
   // empty afterwards.
   std::optional<PointCloud> Build(std::string* error);
 

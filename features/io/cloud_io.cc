@@ -7,57 +7,66 @@
 #include <exception>
 #include <string_view>
 
-#include "features/base/cloud_text.h"
 #include "features/base/file.h"
 #include "features/base/foreign_file.h"
+#include "features/io/cloud_format.h"
+#include "features/io/gzip.h"
 #include "features/io/kitti_bin.h"
+#include "features/io/npy.h"
 #include "features/io/pcd.h"
 #include "features/io/ply.h"
+#include "features/io/point_text.h"
 
 namespace quatro {
 namespace {
 
-// The extension in lower case, with its dot. Empty if the file name has none.
-std::string Ending(const std::string& path) {
-  const std::size_t slash = path.find_last_of('/');
-  const std::size_t dot = path.find_last_of('.');
-  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) {
-    return "";
-  }
-  std::string ending = path.substr(dot);
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending;
-}
+constexpr std::string_view kNpyMagic = "\x93NUMPY";
 
-std::optional<PointCloud> Parse(std::string_view ending,
+std::optional<PointCloud> Parse(CloudFormat format,
                                 std::string_view bytes,
                                 const ReadCloudOptions& options,
                                 std::string* error) {
-  if (ending == ".bin") {
-    // Lines of equal length would have columns, too.
-    if (LooksLikeText(bytes)) {
-      *error = "is text, not the binary numbers of a .bin";
-      return std::nullopt;
-    }
-    return ParseKittiBin(bytes, options.point_floats, error);
+  switch (format) {
+    case CloudFormat::kPly:
+      return ParsePly(bytes, error);
+    case CloudFormat::kPcd:
+      return ParsePcd(bytes, error);
+    case CloudFormat::kNpy:
+      return ParseNpy(bytes, error);
+    case CloudFormat::kText:
+      return ParsePointText(bytes, error);
+    case CloudFormat::kBin:
+      break;
   }
-  if (ending == ".ply") return ParsePly(bytes, error);
-  return ParsePcd(bytes, error);
+  // Its header would be read as points, and its numbers as float32.
+  if (bytes.starts_with(kNpyMagic)) return std::nullopt;  // See ReasonOf().
+  // Lines of equal length would have columns, too.
+  if (LooksLikeText(bytes)) {
+    *error =
+        "is text, not the binary numbers of a .bin; name it .xyz if each line "
+        "is a point";
+    return std::nullopt;
+  }
+  return ParseKittiBin(bytes, options.point_floats, error);
 }
 
 // In place of a parser's reason, if the file is no such file at all.
-std::string ReasonOf(std::string_view ending,
+std::string ReasonOf(CloudFormat format,
                      std::string_view bytes,
                      const std::string& reason) {
-  const std::string_view foreign = DescribeForeignFile(bytes);
-  if (!foreign.empty()) return std::string(foreign);
-  if (ending != ".pcd" && bytes.starts_with("# .PCD")) {
-    return "is a PCD file; name it .pcd";
+  const auto is = [&](CloudFormat other, std::string_view start) {
+    return format != other && bytes.starts_with(start);
+  };
+  if (is(CloudFormat::kNpy, kNpyMagic)) return "is a NumPy array; name it .npy";
+  if (bytes.starts_with("\x1f\x8b\x08")) {
+    return "is gzip-compressed; add .gz to its name, or run gunzip";
   }
-  if (ending != ".ply" &&
-      (bytes.starts_with("ply\n") || bytes.starts_with("ply\r"))) {
+  const std::string_view foreign = DescribeForeignFile(bytes);
+  if (!foreign.empty() && format != CloudFormat::kNpy) {
+    return std::string(foreign);
+  }
+  if (is(CloudFormat::kPcd, "# .PCD")) return "is a PCD file; name it .pcd";
+  if (is(CloudFormat::kPly, "ply\n") || is(CloudFormat::kPly, "ply\r")) {
     return "is a PLY file; name it .ply";
   }
   return reason;
@@ -103,13 +112,12 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
                                     const ReadCloudOptions& options,
                                     std::string* error) {
   if (!options.IsValid(error)) return std::nullopt;
-  const std::string ending = Ending(path);
-  if (ending != ".bin" && ending != ".ply" && ending != ".pcd") {
-    *error =
-        path + ": ending " + Quoted(ending) + ": is not .bin, .ply or .pcd";
+  const auto type = FindCloudFileType(path);
+  if (!type) {
+    *error = path + ": " + UnknownEnding(path, kReadableClouds);
     return std::nullopt;
   }
-  const std::optional<std::string> bytes = ReadWholeFile(path, error);
+  std::optional<std::string> bytes = ReadWholeFile(path, error);
   if (!bytes) return std::nullopt;
   if (bytes->empty()) {
     *error = path + ": is empty";
@@ -119,29 +127,35 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
   std::string reason;
   std::optional<PointCloud> cloud;
   try {
-    cloud = Parse(ending, *bytes, options, &reason);
+    if (type->is_gzip) bytes = Gunzip(*bytes, &reason);
+    if (!bytes) {
+      *error = path + ": " + reason;
+      return std::nullopt;
+    }
+    cloud = Parse(type->format, *bytes, options, &reason);
   } catch (const std::exception&) {  // The standard library's and Eigen's.
     reason = "points: do not fit in memory";
   }
-  if (!cloud) *error = path + ": " + ReasonOf(ending, *bytes, reason);
+  if (!cloud) *error = path + ": " + ReasonOf(type->format, *bytes, reason);
   return cloud;
 }
 
 std::optional<std::string> FormatCloud(const PointCloud& cloud,
                                        const std::string& path,
                                        std::string* error) {
-  const std::string ending = Ending(path);
-  if (ending != ".bin" && ending != ".ply" && ending != ".pcd") {
-    *error =
-        path + ": ending " + Quoted(ending) + ": is not .bin, .ply or .pcd";
+  const auto type = FindCloudFileType(path);
+  const CloudFormat format = type ? type->format : CloudFormat::kText;
+  if (format == CloudFormat::kText || format == CloudFormat::kNpy ||
+      type->is_gzip) {
+    *error = path + ": " + UnknownEnding(path, kWritableClouds);
     return std::nullopt;
   }
   std::string reason;
   std::optional<std::string> bytes;
   if (IsWritable(cloud, &reason)) {
-    bytes = ending == ".bin"   ? FormatKittiBin(cloud, &reason)
-            : ending == ".pcd" ? FormatPcd(cloud, &reason)
-                               : FormatPly(cloud);
+    bytes = format == CloudFormat::kBin   ? FormatKittiBin(cloud, &reason)
+            : format == CloudFormat::kPcd ? FormatPcd(cloud, &reason)
+                                          : FormatPly(cloud);
   }
   if (!bytes) *error = path + ": " + reason;
   return bytes;

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Point cloud files: .bin without a header, PLY and PCD, distinguished by the
-// ending of their name.
+// Point cloud files: .bin without a header, PLY, PCD, .npy and text,
+// distinguished by the ending of their name (cloud_format.h). Any of them may
+// be compressed by gzip.
 //
 // A file is read completely or not at all. A file that is truncated, malformed
 // or without a single finite point is an error; its one-line message names the
-// file, the field and the reason. Points with a NaN or infinite coordinate are
+// file, the field and the reason. Points with a NaN or infinite coordinate and
+// points at the origin, which scanners write where nothing came back, are
 // dropped and counted. A file is written under a temporary name and then
 // renamed, so no reader ever sees an incomplete file.
 
@@ -29,7 +31,7 @@ struct ReadCloudOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Reads `.bin`, `.ply` or `.pcd`. Returns nullopt and sets *error if it cannot.
+// Reads one of kReadableClouds. Returns nullopt and sets *error if it cannot.
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     const ReadCloudOptions& options,
                                     std::string* error);

@@ -3,6 +3,7 @@
 
 #include "robust/estimators/bound_solver.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +13,86 @@
 namespace quatro {
 namespace {
 
+// Poses outside of the bounds that are set aside before the search ends.
+constexpr int kMaxNumOutside = 8;
+
 void MapColumns(const std::vector<Eigen::Index>& columns,
                 std::vector<Eigen::Index>* selected) {
   for (Eigen::Index& i : *selected) i = columns[static_cast<std::size_t>(i)];
+}
+
+// Runs `solver` on some of the matches.
+class ColumnSolver {
+ public:
+  ColumnSolver(const PoseSolver& solver,
+               const PointsRef& source,
+               const PointsRef& target)
+      : solver_(solver), source_(source), target_(target) {}
+
+  // Columns in the summary refer to all matches.
+  PoseSummary operator()(const std::vector<Eigen::Index>& columns) const {
+    PoseSummary summary =
+        solver_(Columns(source_, columns), Columns(target_, columns));
+    MapColumns(columns, &summary.consistent);
+    MapColumns(columns, &summary.translation_inliers);
+    return summary;
+  }
+
+  // The columns, of those given, within the distance of the pose or beyond it.
+  std::vector<Eigen::Index> Near(const Rigid3& pose,
+                                 double distance,
+                                 const std::vector<Eigen::Index>& columns,
+                                 bool are_near) const {
+    std::vector<Eigen::Index> found;
+    for (const Eigen::Index i : columns) {
+      const Eigen::Vector3d p = source_.col(i), q = target_.col(i);
+      if (((pose * p - q).norm() <= distance) == are_near) found.push_back(i);
+    }
+    return found;
+  }
+
+ private:
+  const PoseSolver& solver_;
+  const PointsRef& source_;
+  const PointsRef& target_;
+};
+
+// The pose of the largest consensus within the bounds, given that of a larger
+// one outside; `outside` if there is none.
+PoseSummary SolveWithin(const ColumnSolver& solve,
+                        const PoseBounds& bounds,
+                        double noise_bound,
+                        const std::vector<Eigen::Index>& possible,
+                        PoseSummary outside) {
+  const double inlier_distance = std::sqrt(3.0) * noise_bound;
+  std::vector<Eigen::Index> left = possible;
+  Rigid3 pose = *outside.target_from_source;
+  for (int k = 1; k <= kMaxNumOutside; ++k) {
+    const std::size_t num_before = left.size();
+    left = solve.Near(pose, inlier_distance, left, /*are_near=*/false);
+    if (left.size() == num_before) break;
+    PoseSummary summary = solve(left);
+    if (!summary.IsUsable()) break;
+    pose = *summary.target_from_source;
+    if (!bounds.Contain(pose, noise_bound)) continue;
+    // The poses outside may have taken some of its inliers with them.
+    PoseSummary again =
+        solve(solve.Near(pose, 2.0 * inlier_distance, possible, true));
+    if (again.IsUsable() &&
+        bounds.Contain(*again.target_from_source, noise_bound) &&
+        again.num_translation_inliers >= summary.num_translation_inliers) {
+      summary = std::move(again);
+    }
+    summary.num_matches = outside.num_matches;
+    summary.notes.push_back(
+        {"bounds",
+         "a larger consensus, of " +
+             std::to_string(outside.num_translation_inliers) +
+             " matches, lies outside of the bounds"});
+    return summary;
+  }
+  RefuseOutside(bounds, noise_bound, &outside);
+  return outside;
 }
 
 }  // namespace
@@ -46,12 +124,15 @@ PoseSolver BoundSolver(PoseSolver solver,
     if (source.cols() != target.cols()) return solver(source, target);
     const std::vector<Eigen::Index> columns =
         bounds.PossibleInliers(source, target, noise_bound);
-    summary = solver(Columns(source, columns), Columns(target, columns));
-    MapColumns(columns, &summary.consistent);
-    MapColumns(columns, &summary.translation_inliers);
-    if (summary.IsUsable()) {
-      RefuseOutside(bounds, noise_bound, &summary);
-    } else if (summary.termination != PoseTermination::kInvalidInput) {
+    const ColumnSolver solve(solver, source, target);
+    summary = solve(columns);
+    if (summary.IsUsable() &&
+        !bounds.Contain(*summary.target_from_source, noise_bound)) {
+      return SolveWithin(
+          solve, bounds, noise_bound, columns, std::move(summary));
+    }
+    if (!summary.IsUsable() &&
+        summary.termination != PoseTermination::kInvalidInput) {
       summary.message +=
           "; within the bounds given, " + std::to_string(columns.size()) +
           " of " + std::to_string(source.cols()) + " matches can be inliers";

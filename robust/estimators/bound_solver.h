@@ -6,8 +6,9 @@
 //           -> the pose, if the bounds contain it
 //
 // The filter is necessary, not sufficient: the pose of matches that pass it may
-// still be outside of the bounds. It is then rejected, and no other pose is
-// searched.
+// still be outside of the bounds. Its inliers are then set aside, and the
+// solver runs again on the other matches, until a pose is within the bounds,
+// the solver finds none, or eight poses were set aside.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_BOUND_SOLVER_H_
 #define QUATRO_ROBUST_ESTIMATORS_BOUND_SOLVER_H_
@@ -26,8 +27,8 @@ void RefuseOutside(const PoseBounds& bounds,
                    PoseSummary* summary);
 
 // Returns a solver that runs `solver` on the matches that satisfy (2) and
-// rejects poses that violate (1). Columns in the summary refer to all matches.
-// Returns `solver` itself if the bounds are not active.
+// sets poses aside that violate (1). Columns in the summary refer to all
+// matches. Returns `solver` itself if the bounds are not active.
 PoseSolver BoundSolver(PoseSolver solver,
                        const PoseBounds& bounds,
                        double noise_bound);

@@ -43,7 +43,7 @@ struct PoseBounds {
   double max_tilt = 0.0873;
 
   // Which way is up in the target, a unit vector. Register() and
-  // RegisterMatches() replace it by the vertical of their InsOptions.
+  // RegisterMatches() take the vertical of their InsOptions; do not set this.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 
   // Returns false and says why in *error if a value is out of range.

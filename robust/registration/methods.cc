@@ -264,7 +264,7 @@ bool CanUseIns(const Method& method,
   if (method.ins == kNeeded && ins.mode == InsMode::kNone) {
     *error = "method " + name +
              " needs an INS: set ins_mode to relative, leveled or fused, and "
-             "roll, pitch and yaw of both clouds";
+             "give source_rpy and target_rpy";
     return false;
   }
   if (method.ins == kRefused && !ins.IsPlain()) {

@@ -75,6 +75,9 @@ bool RegistrationOptions::IsValid(std::string* error) const {
   } else if (verdict.rival.bounds.IsActive() ||
              evidence.rival.bounds.IsActive()) {
     problem << "rival.bounds are set, set bounds of the registration instead";
+  } else if (bounds.up != PoseBounds().up && bounds.up != ins.up) {
+    problem << "bounds.up = (" << bounds.up.transpose()
+            << "), set ins.up instead, which is (" << ins.up.transpose() << ")";
   }
   *error = problem.str();
   return error->empty() && SharesValues(*this, error) &&

@@ -10,6 +10,7 @@
 
 #include "features/base/parallel.h"
 #include "robust/estimators/consensus_search.h"
+#include "robust/estimators/distinct_matches.h"
 #include "robust/registration/vertical.h"
 #include "robust/verdict/structure.h"
 #include "solvers/closed_form/gravity.h"
@@ -33,6 +34,10 @@ constexpr double kSameShift = 2.0;       // [noise bounds]
 
 // A smaller inclination is left to max_tilt [rad].
 constexpr double kMinInclination = 0.05;
+
+// VG-ICP may move a proposal into the bounds from this far outside.
+constexpr double kMaxShiftIntoBounds = 4.0;  // [noise bounds]
+constexpr double kMaxTurnIntoBounds = 0.1;   // [rad]
 
 // VG-ICP cannot number the voxels of a wider cloud [voxel sizes].
 constexpr double kMaxWidth = 1e6;
@@ -68,6 +73,14 @@ DescribedCloud SampleForAlignment(const DescribedCloud& cloud) {
   sample.sensor = cloud.sensor;
   sample.is_scan = cloud.is_scan;
   return sample;
+}
+
+PoseBounds Widened(const PoseBounds& bounds, double noise_bound) {
+  PoseBounds wide = bounds;
+  wide.max_translation += kMaxShiftIntoBounds * noise_bound;
+  wide.max_yaw = std::min(M_PI, bounds.max_yaw + kMaxTurnIntoBounds);
+  wide.max_tilt = std::min(M_PI, bounds.max_tilt + kMaxTurnIntoBounds);
+  return wide;
 }
 
 double Width(const Points& points) {
@@ -209,6 +222,23 @@ std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
                                             const PointsRef& matched_target,
                                             const std::string& origin,
                                             const PoseBounds& bounds) const {
+  if (!bounds.IsActive()) {
+    return FindAmong(matched_source, matched_target, origin, bounds);
+  }
+  const PoseBounds wide = Widened(bounds, noise_bound_);
+  const std::vector<Eigen::Index> columns = wide.PossibleInliers(
+      matched_source, matched_target, options_.bound_factor * noise_bound_);
+  return FindAmong(Columns(matched_source, columns),
+                   Columns(matched_target, columns),
+                   origin,
+                   bounds);
+}
+
+std::vector<PoseCandidate> PoseSearch::FindAmong(
+    const PointsRef& matched_source,
+    const PointsRef& matched_target,
+    const std::string& origin,
+    const PoseBounds& bounds) const {
   std::vector<PoseCandidate> candidates;
   if (!aligner_ || matched_source.cols() == 0) return candidates;
   const Eigen::Matrix3d as_given = Eigen::Matrix3d::Identity();
@@ -222,6 +252,10 @@ std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
             level_from_target_,
             &candidates);
   }
+  const PoseBounds wide = Widened(bounds, noise_bound_);
+  std::erase_if(candidates, [&](const PoseCandidate& candidate) {
+    return !wide.Contain(candidate.target_from_source, noise_bound_);
+  });
   const auto score = [&](PoseCandidate* candidate) {
     candidate->geometry = scorer_.At(candidate->target_from_source);
   };

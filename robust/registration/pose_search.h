@@ -107,6 +107,12 @@ class PoseSearch {
  private:
   struct Aligner;
 
+  // Find() on matches that can be inliers within the bounds.
+  std::vector<PoseCandidate> FindAmong(const PointsRef& matched_source,
+                                       const PointsRef& matched_target,
+                                       const std::string& origin,
+                                       const PoseBounds& bounds) const;
+
   // The proposals in frames with z along the verticals, or along the given ones
   // if no rotations are given.
   void Propose(const PointsRef& matched_source,

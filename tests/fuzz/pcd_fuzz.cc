@@ -17,9 +17,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     quatro::CheckIsOneLine(error);  // Beyond float32.
     return 0;
   }
+  // Points that float32 rounds to the origin are dropped.
+  const quatro::Points rounded = cloud->points.cast<float>().cast<double>();
+  if ((rounded.array() == 0.0).colwise().all().any()) return 0;
   const auto again = quatro::ParsePcd(*bytes, &error);
   CHECK(again) << error;
   CHECK_EQ(again->num_dropped, 0);
-  CHECK(again->points == cloud->points.cast<float>().cast<double>());
+  CHECK(again->points == rounded);
   return 0;
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What goes in, in which layouts, and what comes out."""
 
+import gzip
 import os
 import tracemalloc
 
@@ -163,8 +164,40 @@ def test_numbers_of_a_point_are_given_or_inferred(tmp_path, point_floats):
             quatro.read_cloud(path, wrong)
 
 
+@pytest.mark.parametrize('dtype', ['<f4', '<f8'])
+@pytest.mark.parametrize('order', ['C', 'F'])
+def test_arrays_and_text_are_clouds(tmp_path, dtype, order):
+    points = problems.scan(1, 1)[:500].astype(dtype)
+    np.save(tmp_path / 'scan.npy', np.asarray(points, order=order))
+    assert np.array_equal(quatro.read_cloud(tmp_path / 'scan.npy'), points)
+    for name, options in {'a.xyz': {}, 'b.csv': {'delimiter': ',', 'header': 'x,y,z'},
+                          'c.txt': {'delimiter': ';', 'header': 'X;Y;Z', 'comments': ''}}.items():
+        np.savetxt(tmp_path / name, points, **options)
+        assert np.allclose(quatro.read_cloud(tmp_path / name), points, rtol=1e-15)
+    zipped = tmp_path / 'scan.npy.gz'
+    zipped.write_bytes(gzip.compress((tmp_path / 'scan.npy').read_bytes()))
+    try:
+        assert np.array_equal(quatro.read_cloud(zipped), points)
+    except ValueError as error:
+        assert 'built without zlib' in str(error)
+    for wrong, reason in ((points.astype('>f4'), "dtype '>f4'"), (points.T, r'shape \(3, 500\)'),
+                          (points.astype(np.int32), "dtype '<i4'")):
+        np.save(tmp_path / 'wrong.npy', wrong)
+        with pytest.raises(ValueError, match=reason.replace('shape ', "shape '")):
+            quatro.read_cloud(tmp_path / 'wrong.npy')
+
+
+def test_points_at_the_origin_are_left_out(tmp_path):
+    points = problems.scan(1, 1)[:100].astype(np.float32)
+    with_zeros = np.vstack((points[:50], np.zeros((20, 3), np.float32), points[50:]))
+    np.save(tmp_path / 'scan.npy', with_zeros)
+    assert np.array_equal(quatro.read_cloud(tmp_path / 'scan.npy'), points)
+    answer = quatro.register(with_zeros, points)
+    assert answer.num_source_dropped == 20 and answer.num_target_dropped == 0
+
+
 def test_names_of_files_may_be_any_but_for_nul(tmp_path):
-    points = np.zeros((2, 4), np.float32)
+    points = np.ones((2, 4), np.float32)
     name = os.fsencode(tmp_path) + b'/latin\xff.bin'
     with open(name, 'wb') as file:
         points.tofile(file)

@@ -151,8 +151,8 @@ TEST_F(InsProgramTest, GravityWithoutDirection) {
 TEST_F(InsProgramTest, MethodThatNeedsAnIns) {
   for (const std::string gravity : {"0,0,1", "1,0,0"}) {
     ExpectRefused({"--method=quatro_ins", "--gravity=" + gravity},
-                  "method quatro_ins needs an INS: set ins_mode",
-                  "roll, pitch and yaw of both clouds");
+                  "--method=quatro_ins needs an INS: set --ins_mode",
+                  "--source_rpy_deg and --target_rpy_deg");
   }
 }
 

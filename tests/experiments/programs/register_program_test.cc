@@ -236,15 +236,15 @@ TEST_F(RegisterProgramTest, TextForANumber) {
 }
 
 TEST_F(RegisterProgramTest, NegativeVoxelSize) {
-  ExpectRefusedFlag("--voxel_size=-1", "voxel_size = -1", "must be > 0");
+  ExpectRefusedFlag("--voxel_size=-1", "--voxel_size=-1", "must be > 0");
 }
 
 TEST_F(RegisterProgramTest, NegativeNoiseBound) {
-  ExpectRefusedFlag("--noise_bound=-1", "noise_bound = -1", "must be > 0");
+  ExpectRefusedFlag("--noise_bound=-1", "--noise_bound=-1", "must be > 0");
 }
 
 TEST_F(RegisterProgramTest, NanNoiseBound) {
-  ExpectRefusedFlag("--noise_bound=nan", "noise_bound = nan", "must be > 0");
+  ExpectRefusedFlag("--noise_bound=nan", "--noise_bound=nan", "must be > 0");
 }
 
 TEST_F(RegisterProgramTest, DescriptorsNarrowerThanNormals) {
@@ -253,7 +253,7 @@ TEST_F(RegisterProgramTest, DescriptorsNarrowerThanNormals) {
 
 TEST_F(RegisterProgramTest, DescriptorsOfTheWholeCloud) {
   ExpectRefusedFlag(
-      "--fpfh_radius=1e300", "fpfh_radius = 1e+300", "must be <=");
+      "--fpfh_radius=1e300", "--fpfh_radius=1e+300", "must be <=");
 }
 
 TEST_F(RegisterProgramTest, UnknownPreset) {
@@ -261,7 +261,7 @@ TEST_F(RegisterProgramTest, UnknownPreset) {
 }
 
 TEST_F(RegisterProgramTest, UnknownMethod) {
-  ExpectRefusedFlag("--method=magic", "method = magic", "must be");
+  ExpectRefusedFlag("--method=magic", "--method=magic", "must be");
 }
 
 TEST_F(RegisterProgramTest, AnOdometryIsOfAnotherProgram) {

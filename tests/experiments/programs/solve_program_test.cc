@@ -176,15 +176,15 @@ TEST_F(SolveProgramTest, FractionForAWholeNumber) {
 }
 
 TEST_F(SolveProgramTest, NegativeThreads) {
-  ExpectRefusedFlag("--threads=-1", "threads = -1", "must be >= 0");
+  ExpectRefusedFlag("--threads=-1", "--threads=-1", "must be >= 0");
 }
 
 TEST_F(SolveProgramTest, NegativeNoiseBound) {
-  ExpectRefusedFlag("--noise_bound=-1", "noise_bound = -1", "must be > 0");
+  ExpectRefusedFlag("--noise_bound=-1", "--noise_bound=-1", "must be > 0");
 }
 
 TEST_F(SolveProgramTest, NanNoiseBound) {
-  ExpectRefusedFlag("--noise_bound=nan", "noise_bound = nan", "must be > 0");
+  ExpectRefusedFlag("--noise_bound=nan", "--noise_bound=nan", "must be > 0");
 }
 
 TEST_F(SolveProgramTest, UnknownPreset) {
@@ -192,7 +192,7 @@ TEST_F(SolveProgramTest, UnknownPreset) {
 }
 
 TEST_F(SolveProgramTest, UnknownMethod) {
-  ExpectRefusedFlag("--method=magic", "method = magic", "must be");
+  ExpectRefusedFlag("--method=magic", "--method=magic", "must be");
 }
 
 TEST_F(SolveProgramTest, SwitchThatIsNeitherOnNorOff) {

@@ -160,6 +160,39 @@ TEST(FindBinLayout, PointsAtTheOriginAndNansTellNothing) {
   }
 }
 
+TEST(FindBinLayout, LastColumnsMayBeZero) {
+  std::vector<Row> rows = Street(3200, true, 1);
+  for (Row& row : rows) row.resize(3);
+  for (const std::size_t num_values : {6u, 8u, 9u, 16u}) {
+    for (Row& row : rows) row.resize(num_values, 0.0);
+    for (const std::size_t num_points : {400u, 3200u}) {
+      const std::vector<Row> some(
+          rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(num_points));
+      if (num_values == 6) {
+        ExpectLayout(AsFloats(some, 6), 6, ScalarType::kFloat32);
+        continue;
+      }
+      EXPECT_THAT(ErrorOf(AsFloats(some, num_values)),
+                  HasSubstr("a point seems to have " +
+                            std::to_string(num_values) + " numbers"));
+    }
+  }
+}
+
+// x, y, z and the intensity, of 8 float32.
+TEST(FindBinLayout, HalfOfThePointMayBeZero) {
+  std::vector<Row> rows = Street(3200, true, 1);
+  for (Row& row : rows) {
+    row.resize(4);
+    row.resize(8, 0.0);
+  }
+  EXPECT_THAT(ErrorOf(AsFloats(rows, 8)), HasSubstr("set point_floats=8"));
+  // One further value that is not zero makes it four numbers a point again.
+  std::string bytes = AsFloats(rows, 8);
+  bytes.replace(20, 4, AsFloats({{1.0}}, 1));
+  ExpectLayout(bytes, 4, ScalarType::kFloat32);
+}
+
 TEST(FindBinLayout, StrayPointsDoNotMatter) {
   std::vector<Row> rows = Street(3200, true, 1);
   rows[100] = {3e38, 1e20, 0.0, 0.5, 1.0, 0.0};
@@ -177,7 +210,7 @@ TEST(FindBinLayout, RefusesColumnsThatAreAlike) {
   const std::string bytes = AsFloats(rows, 3);
   EXPECT_EQ(ErrorOf(bytes),
             "cannot tell how many numbers a point has; if x, y, z and "
-            "intensity as float32, use --point_floats=4");
+            "intensity as float32, set point_floats=4");
   std::string error;
   EXPECT_EQ(FindBinLayout(bytes, 3, &error)->num_values, 3);
   EXPECT_EQ(FindBinLayout(bytes, 4, &error)->num_values, 4);
@@ -189,13 +222,13 @@ TEST(FindBinLayout, RefusesNoiseByItsCoordinates) {
   for (char& c : bytes) c = static_cast<char>(random());
   EXPECT_THAT(ErrorOf(bytes),
               HasSubstr("m. The file is probably not float32 x, y, z, "
-                        "intensity; use --point_floats or convert it"));
+                        "intensity; set point_floats or convert it"));
 }
 
 TEST(FindBinLayout, RefusesWiderPointsAndHalfPoints) {
   std::vector<Row> rows = Street(3200, true, 1);
   for (Row& row : rows) row.insert(row.end(), {1000.0, 2000.0});
-  EXPECT_THAT(ErrorOf(AsFloats(rows, 8)), HasSubstr("--point_floats=8"));
+  EXPECT_THAT(ErrorOf(AsFloats(rows, 8)), HasSubstr("set point_floats=8"));
   std::string error;
   EXPECT_EQ(FindBinLayout(AsFloats(rows, 8), 8, &error)->PointSize(), 32u);
   const std::string five = AsFloats(rows, 5);

@@ -237,9 +237,13 @@ TEST_F(CloudIoTest, RefusesAnEmptyFile) {
 }
 
 TEST_F(CloudIoTest, RefusesAnUnknownEnding) {
-  EXPECT_EQ(ErrorOf("a.xyz", "1 2 3\n"),
-            "ending '.xyz': is not .bin, .ply or .pcd");
-  EXPECT_EQ(ErrorOf("bin", "1 2 3\n"), "ending '': is not .bin, .ply or .pcd");
+  const std::string must_be =
+      ": must be .bin, .ply, .pcd, .npy, .xyz, .txt or .csv, each also with "
+      ".gz";
+  EXPECT_EQ(ErrorOf("a.las", "1 2 3\n"), "ending '.las'" + must_be);
+  EXPECT_EQ(ErrorOf("bin", "1 2 3\n"), "ending ''" + must_be);
+  EXPECT_EQ(ErrorOf("a.las.gz", "1 2 3\n"), "ending '.las.gz'" + must_be);
+  EXPECT_EQ(ErrorOf("a.gz", "1 2 3\n"), "ending '.gz'" + must_be);
 }
 
 TEST_F(CloudIoTest, DoesNotTakeTheEndingOfADirectory) {
@@ -273,7 +277,7 @@ TEST_F(CloudIoTest, BinRefusesHalfAPoint) {
   EXPECT_EQ(ErrorOf("scan.bin", std::string(1993, '\0')),
             "size 1993 bytes is not a multiple of 16 (x y z intensity as "
             "float32); is it truncated, or of another layout "
-            "(--point_floats)?");
+            "(point_floats)?");
 }
 
 TEST_F(CloudIoTest, BinDropsAndCountsWhatIsNotFinite) {
@@ -296,10 +300,31 @@ TEST_F(CloudIoTest, KeepsWhatIsFarAway) {
 }
 
 TEST_F(CloudIoTest, RefusesACloudWithoutAFinitePoint) {
-  const std::string kReason = "points: none of 1 is finite";
+  const std::string kReason = "points: none of 1 is finite and not zero";
   EXPECT_EQ(ErrorOf("a.bin", Little({kNan, kNan, kNan, 1.0f})), kReason);
   EXPECT_EQ(ErrorOf("a.ply", AsciiPly("1", "nan 2 3\n")), kReason);
   EXPECT_EQ(ErrorOf("a.pcd", PcdXyz("1", "ascii") + "1 inf 3\n"), kReason);
+}
+
+// Raw Livox frames keep them where nothing came back.
+TEST_F(CloudIoTest, PointsAtTheOriginAreDroppedAndCounted) {
+  const auto expect_two = [](const PointCloud& cloud) {
+    EXPECT_EQ(cloud.num_dropped, 3);
+    ASSERT_EQ(cloud.points.cols(), 2);
+    EXPECT_EQ(cloud.points.col(0), Eigen::Vector3d(1.0, 0.0, 0.0));
+    EXPECT_EQ(cloud.points.col(1), Eigen::Vector3d(4.0, 5.0, 6.0));
+  };
+  const std::string lines = "0 0 0\n1 0 0\n-0 0 -0.0\n4 5 6\nnan 5 6\n";
+  expect_two(Read("a.ply", AsciiPly("5", lines)));
+  expect_two(Read("a.pcd", PcdXyz("5", "ascii") + lines));
+  expect_two(Read("a.xyz", lines));
+  expect_two(Read("a.bin", Little({0.0f, 0.0f, 0.0f,  9.0f,  //
+                                   1.0f, 0.0f, 0.0f,  9.0f,  //
+                                   0.0f, 0.0f, -0.0f, 9.0f,  //
+                                   4.0f, 5.0f, 6.0f,  9.0f,  //
+                                   kNan, 5.0f, 6.0f,  9.0f})));
+  EXPECT_EQ(ErrorOf("a.xyz", "0 0 0\n0 0 0\n"),
+            "points: none of 2 is finite and not zero");
 }
 
 // PLY
@@ -598,8 +623,9 @@ TEST_F(CloudIoTest, PcdCompressed) {
 TEST_F(CloudIoTest, PcdCompressedAtTheBestRatioOfLzf) {
   const PointCloud cloud = Read("a.pcd",
                                 PcdXyz("100000", "binary_compressed") +
-                                    Compressed(std::string(1200000, '\0')));
-  EXPECT_EQ(cloud.points, Points::Zero(3, 100000));
+                                    Compressed(std::string(1200000, '\1')));
+  const float same = std::bit_cast<float>(0x01010101u);
+  EXPECT_EQ(cloud.points, Points::Constant(3, 100000, same));
 }
 
 // Fields in another order, of every size, with COUNT > 1 and padding.
@@ -943,7 +969,11 @@ class CloudIoWriteErrorTest : public CloudIoTest {
 
 TEST_F(CloudIoWriteErrorTest, UnknownEnding) {
   EXPECT_EQ(WriteErrorOf(RandomCloud(3, true), PathOf("a.las")),
-            "ending '.las': is not .bin, .ply or .pcd");
+            "ending '.las': must be .bin, .ply or .pcd");
+  EXPECT_EQ(WriteErrorOf(RandomCloud(3, true), PathOf("a.npy")),
+            "ending '.npy': must be .bin, .ply or .pcd");
+  EXPECT_EQ(WriteErrorOf(RandomCloud(3, true), PathOf("a.ply.gz")),
+            "ending '.ply.gz': must be .bin, .ply or .pcd");
 }
 
 TEST_F(CloudIoWriteErrorTest, MissingDirectory) {
@@ -1149,7 +1179,9 @@ TEST_F(CloudIoTest, SaysWhatAForeignFileIs) {
             "is a pointer of Git LFS, not the data; run git lfs pull");
   EXPECT_EQ(error("<!DOCTYPE html>404"),
             "is a web page; the download failed, repeat it");
-  EXPECT_EQ(error("\x1f\x8b\x08"), "is gzip-compressed; run gunzip");
+  EXPECT_EQ(error("\x1f\x8b\x08"),
+            "is gzip-compressed; add .gz to its name, or run gunzip");
+  EXPECT_EQ(error("\x93NUMPY"), "is a NumPy array; name it .npy");
   EXPECT_EQ(error(std::string("\xff\xfep\0l\0y\0\r\0\n\0", 12)),
             "is UTF-16 text; save it as UTF-8");
   EXPECT_THAT(ErrorOf("a.bin", AsciiPly("1", "1 2 3\n")),
@@ -1162,7 +1194,26 @@ TEST_F(CloudIoTest, SaysWhatAForeignFileIs) {
     std::string text;
     for (int i = 0; i < 1600; ++i) text += line;
     EXPECT_EQ(ErrorOf("a.bin", text),
-              "is text, not the binary numbers of a .bin");
+              "is text, not the binary numbers of a .bin; name it .xyz if each "
+              "line is a point");
+  }
+}
+
+// Read as float32, its header would be eight points.
+TEST_F(CloudIoTest, ANumPyArrayNamedBinIsNotRead) {
+  std::string npy = "\x93NUMPY" + std::string("\x01\x00\x76\x00", 4) +
+                    "{'descr': '<f4', 'fortran_order': False, 'shape': (99, "
+                    "4), }";
+  npy.resize(128, ' ');
+  for (int i = 1; i <= 4 * 99; ++i) npy += Little({static_cast<float>(i)});
+  EXPECT_EQ(Read("a.npy", npy).points.cols(), 99);
+  EXPECT_EQ(ErrorOf("a.bin", npy), "is a NumPy array; name it .npy");
+  EXPECT_EQ(ErrorOf("a.csv", npy), "is a NumPy array; name it .npy");
+}
+
+TEST_F(CloudIoTest, TheEndingsOfTextAreOneFormat) {
+  for (const char* name : {"a.xyz", "a.TXT", "a.csv"}) {
+    ExpectTwoPoints(Read(name, "1 2 3\n4 5 6\n"));
   }
 }
 
@@ -1192,8 +1243,9 @@ TEST_F(RealCloudTest, PclRoomScanIsCompressed) {
 TEST_F(RealCloudTest, SmallGicpHasIntensity) {
   if (!Has("small_gicp")) GTEST_SKIP() << "needs small_gicp";
   const PointCloud cloud = Read("small_gicp/source.ply");
-  EXPECT_EQ(cloud.points.cols(), 69792);
-  EXPECT_EQ(cloud.intensity.size(), 69792);
+  EXPECT_EQ(cloud.num_dropped, 5107);  // At the origin.
+  EXPECT_EQ(cloud.points.cols() + cloud.num_dropped, 69792);
+  EXPECT_EQ(cloud.intensity.size(), cloud.points.cols());
 }
 
 TEST_F(RealCloudTest, TurboRegIsDouble) {

@@ -95,6 +95,46 @@ TEST(BoundSolver, APoseOutsideIsNoAnswer) {
   EXPECT_THAT(summary.message, HasSubstr("at most 3 m"));
 }
 
+// 60 matches follow a pose within the bounds, 90 one that is 1.8 m outside:
+// too near for its matches to be told by themselves.
+TEST(BoundSolver, TheConsensusInsideIsFoundBesideALargerOneOutside) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    TwoPoses problem = MakeTwoPoses(seed);
+    const Rigid3 outside{RotationZ(0.1), {4.8, 0.0, 0.0}};
+    for (Eigen::Index i = 0; i < problem.source.cols(); ++i) {
+      const Eigen::Vector3d noise =
+          problem.target.col(i) -
+          problem.many * Eigen::Vector3d(problem.source.col(i));
+      if (noise.norm() < 0.1) {
+        problem.target.col(i) =
+            outside * Eigen::Vector3d(problem.source.col(i)) + noise;
+      }
+    }
+    PoseBounds bounds;
+    bounds.max_translation = 3.0;
+    bounds.max_yaw = 0.4;
+    const auto possible =
+        bounds.PossibleInliers(problem.source, problem.target, kNoiseBound);
+    ASSERT_GT(possible.size(), problem.of_few.size() + 70);
+    const PoseSummary free = Quatro()(problem.source, problem.target);
+    ASSERT_TRUE(free.IsUsable());
+    ASSERT_FALSE(bounds.Contain(*free.target_from_source, kNoiseBound));
+
+    const PoseSummary summary = BoundSolver(Quatro(), bounds, kNoiseBound)(
+        problem.source, problem.target);
+    ASSERT_TRUE(summary.IsUsable()) << summary.message;
+    EXPECT_LT((summary.target_from_source->ToMatrix() - problem.few.ToMatrix())
+                  .norm(),
+              0.1);
+    // Inliers that it shares with the pose outside are its own, too.
+    EXPECT_THAT(summary.translation_inliers,
+                ::testing::IsSupersetOf(problem.of_few));
+    EXPECT_THAT(summary.Note("bounds"),
+                HasSubstr("matches, lies outside of the bounds"));
+    EXPECT_EQ(summary.num_matches, static_cast<Eigen::Index>(possible.size()));
+  }
+}
+
 TEST(BoundSolver, BoundsWithoutAnyMatchSaySo) {
   const TwoPoses problem = MakeTwoPoses(1);
   const PoseSummary summary = BoundSolver(

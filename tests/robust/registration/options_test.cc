@@ -139,6 +139,19 @@ TEST(RegistrationOptions, TheBoundsStandOnce) {
   }
 }
 
+// The bounds' own vertical would be replaced without a word.
+TEST(RegistrationOptions, TheVerticalOfTheBoundsIsThatOfTheIns) {
+  RegistrationOptions options;
+  std::string error;
+  options.bounds.up = Eigen::Vector3d::UnitY();
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_EQ(error, "bounds.up = (0 1 0), set ins.up instead, which is (0 0 1)");
+  options.ins.up = Eigen::Vector3d::UnitY();
+  EXPECT_TRUE(options.IsValid(&error)) << error;
+  options.bounds.up = PoseBounds().up;
+  EXPECT_TRUE(options.IsValid(&error)) << error;
+}
+
 // Options of the methods
 
 // Sets the field behind an option to the k-th other value. Returns false if
