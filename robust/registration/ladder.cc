@@ -20,8 +20,14 @@ constexpr double kNormalFactor = 4.0 / 3.0;
 constexpr double kFpfhFactor = 7.0 / 3.0;
 
 // The estimator's pose replaces the candidate if its score is at least this
-// share of the candidate's.
+// share of the candidate's. A pose without the tilt between the scans replaces
+// it only if its score is not less.
 constexpr double kMinScoreShare = 0.95;
+
+// Whether the tilt between the scans was estimated.
+bool HasTilt(const PoseSummary& summary) {
+  return summary.model == PoseModel::kRigid;
+}
 
 // Runs an estimator on the inliers of a candidate alone.
 class CandidateSolver {
@@ -71,7 +77,8 @@ class CandidateSolver {
   bool IsAsGood(const PoseSummary& summary) const {
     return summary.IsUsable() &&
            search_.ScoreOf(*summary.target_from_source).value() >=
-               kMinScoreShare * search_.ScoreOf(candidate_).value();
+               (HasTilt(summary) ? kMinScoreShare : 1.0) *
+                   search_.ScoreOf(candidate_).value();
   }
 
   const PoseSearch& search_;
@@ -109,73 +116,146 @@ double SumOf(const std::vector<StageTime>& times) {
   return sum;
 }
 
-}  // namespace
+class Ladder {
+ public:
+  Ladder(const MatchedPoints& mutual_matches,
+         const LevelProblem& problem,
+         RegistrationSummary* summary)
+      : mutual_matches_(mutual_matches),
+        problem_(problem),
+        options_(problem.options),
+        summary_(*summary) {}
 
-MatchedPoints Climb(const MatchedPoints& mutual_matches,
-                    const LevelProblem& problem,
-                    RegistrationSummary* summary) {
-  MatchedPoints answer;
-  const RegistrationOptions& options = problem.options;
-  if (summary->verdict.IsRegistered() || options.search.max_rung == 0) {
+  // A registered pose without the tilt between the scans is aligned with the
+  // clouds, and judged again if they fit it better.
+  void CheckTilt(const PointsRef& matched_source,
+                 const PointsRef& matched_target) {
+    const bool is_refined =
+        summary_.refinement && summary_.refinement->is_accepted;
+    if (!summary_.verdict.IsRegistered() || HasTilt(summary_.solution) ||
+        is_refined || options_.ins.mode != InsMode::kNone) {
+      return;
+    }
+    Stopwatch stopwatch;
+    const Rigid3& pose = *summary_.solution.target_from_source;
+    const Rigid3 aligned = Search().Align(pose);
+    const bool is_better =
+        problem_.bounds.Contain(aligned, options_.noise_bound) &&
+        Search().ScoreOf(aligned).value() > Search().ScoreOf(pose).value();
+    FinishSearch(&stopwatch);
+    if (is_better) Take(Attempt(matched_source, matched_target, 0, aligned));
+  }
+
+  // Climbs until a pose is registered. Returns the matches of the answer if it
+  // is from a higher rung, else none.
+  MatchedPoints Climb() {
+    MatchedPoints answer;
+    for (int rung = 1;
+         rung <= options_.search.max_rung && !summary_.verdict.IsRegistered();
+         ++rung) {
+      if (SumOf(summary_.stage_times) > options_.search.time_limit_seconds) {
+        break;
+      }
+      Stopwatch stopwatch;
+      MatchedPoints matches = MatchesOf(rung, mutual_matches_, problem_);
+      std::vector<PoseCandidate> candidates =
+          Search().Find(matches.source,
+                        matches.target,
+                        "rung " + std::to_string(rung),
+                        problem_.bounds);
+      FinishSearch(&stopwatch);
+      if (candidates.empty()) continue;
+      RegistrationSummary attempt = Attempt(matches.source,
+                                            matches.target,
+                                            rung,
+                                            candidates[0].target_from_source);
+      summary_.candidates.insert(summary_.candidates.end(),
+                                 std::make_move_iterator(candidates.begin()),
+                                 std::make_move_iterator(candidates.end()));
+      if (attempt.verdict.IsRegistered() ||
+          attempt.verdict.probability > summary_.verdict.probability) {
+        Take(std::move(attempt));
+        answer = std::move(matches);
+      }
+    }
     return answer;
   }
-  const double voxel_size = options.front_end.voxel_size;
-  std::optional<PoseSearch> search;
-  for (int rung = 1; rung <= options.search.max_rung; ++rung) {
-    if (SumOf(summary->stage_times) > options.search.time_limit_seconds) break;
-    Stopwatch stopwatch;
-    if (!search) {
-      search.emplace(*problem.source,
-                     *problem.target,
-                     options.evidence.MaxDistance(voxel_size),
-                     voxel_size,
-                     options.noise_bound,
-                     options.search,
-                     options.num_threads);
-    }
-    const MatchedPoints matches = MatchesOf(rung, mutual_matches, problem);
-    std::vector<PoseCandidate> candidates =
-        search->Find(matches.source,
-                     matches.target,
-                     "rung " + std::to_string(rung),
-                     problem.bounds);
-    const StageTime search_time{"search", stopwatch.Lap()};
-    AddTime(search_time, &summary->stage_times);
-    if (options.progress) options.progress(search_time);
-    if (candidates.empty()) continue;
 
-    RegistrationSummary attempt;
-    attempt.num_source_voxels = summary->num_source_voxels;
-    attempt.num_target_voxels = summary->num_target_voxels;
-    attempt.num_mutual_matches = summary->num_mutual_matches;
-    const PoseSolver solver =
-        CandidateSolver(*search,
-                        problem.solver,
-                        candidates.front().target_from_source,
-                        options.search.bound_factor * options.noise_bound);
-    RegisterLevel(
-        matches.source,
-        matches.target,
-        {problem.source, problem.target, problem.bounds, options, solver},
-        &attempt);
-    attempt.rung = rung;
-    std::vector<PoseCandidate> all = std::move(summary->candidates);
-    all.insert(all.end(),
-               std::make_move_iterator(candidates.begin()),
-               std::make_move_iterator(candidates.end()));
-    std::vector<StageTime> times = std::move(summary->stage_times);
-    for (const StageTime& time : attempt.stage_times) AddTime(time, &times);
-    if (attempt.verdict.IsRegistered() ||
-        attempt.verdict.probability > summary->verdict.probability) {
-      attempt.total_seconds = summary->total_seconds;
-      *summary = std::move(attempt);
-      answer = matches;
+ private:
+  // Made when it is first needed.
+  const PoseSearch& Search() {
+    const double voxel_size = options_.front_end.voxel_size;
+    if (!search_) {
+      search_.emplace(*problem_.source,
+                      *problem_.target,
+                      options_.evidence.MaxDistance(voxel_size),
+                      voxel_size,
+                      options_.noise_bound,
+                      options_.search,
+                      options_.num_threads);
     }
-    summary->candidates = std::move(all);
-    summary->stage_times = std::move(times);
-    if (summary->verdict.IsRegistered()) break;
+    return *search_;
   }
-  return answer;
+
+  void FinishSearch(Stopwatch* stopwatch) {
+    const StageTime time{"search", stopwatch->Lap()};
+    AddTime(time, &summary_.stage_times);
+    if (options_.progress) options_.progress(time);
+  }
+
+  // Runs the estimator on the inliers of a candidate, and judges the pose. The
+  // stage times are added to those of the summary.
+  RegistrationSummary Attempt(const PointsRef& matched_source,
+                              const PointsRef& matched_target,
+                              int rung,
+                              const Rigid3& candidate) {
+    RegistrationSummary attempt;
+    attempt.num_source_voxels = summary_.num_source_voxels;
+    attempt.num_target_voxels = summary_.num_target_voxels;
+    attempt.num_mutual_matches = summary_.num_mutual_matches;
+    attempt.rung = rung;
+    const PoseSolver solver =
+        CandidateSolver(Search(),
+                        problem_.solver,
+                        candidate,
+                        options_.search.bound_factor * options_.noise_bound);
+    RegisterLevel(
+        matched_source,
+        matched_target,
+        {problem_.source, problem_.target, problem_.bounds, options_, solver},
+        &attempt);
+    for (const StageTime& time : attempt.stage_times) {
+      AddTime(time, &summary_.stage_times);
+    }
+    return attempt;
+  }
+
+  // The attempt becomes the answer.
+  void Take(RegistrationSummary attempt) {
+    attempt.candidates = std::move(summary_.candidates);
+    attempt.stage_times = std::move(summary_.stage_times);
+    attempt.total_seconds = summary_.total_seconds;
+    summary_ = std::move(attempt);
+  }
+
+  const MatchedPoints& mutual_matches_;
+  const LevelProblem& problem_;
+  const RegistrationOptions& options_;
+  RegistrationSummary& summary_;
+  std::optional<PoseSearch> search_;
+};
+
+}  // namespace
+
+MatchedPoints Climb(const PointsRef& matched_source,
+                    const PointsRef& matched_target,
+                    const MatchedPoints& mutual_matches,
+                    const LevelProblem& problem,
+                    RegistrationSummary* summary) {
+  if (problem.options.search.max_rung == 0) return {};
+  Ladder ladder(mutual_matches, problem, summary);
+  ladder.CheckTilt(matched_source, matched_target);
+  return ladder.Climb();
 }
 
 }  // namespace quatro

@@ -13,6 +13,12 @@
 // estimator's pose, the candidate is kept. The ladder ends with the first pose
 // that is registered; otherwise the pose with the highest probability is the
 // answer.
+//
+// If few matches are inliers, the estimator finds no tilt between the scans,
+// and its pose may be registered although it is off by that tilt. Therefore
+// such a pose is aligned with the clouds by VG-ICP, unless an INS gives the
+// tilt. If their structure then fits better, the aligned pose is the candidate
+// of rung 0, and its verdict counts.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_LADDER_H_
 #define QUATRO_ROBUST_REGISTRATION_LADDER_H_
@@ -23,11 +29,13 @@
 
 namespace quatro {
 
-// Climbs from `summary`, that of rung 0, and replaces it by a better one. The
-// problem must have clouds. `mutual_matches` are all that the front end found,
-// in the frames of the problem. Returns the matches of the answer if it is from
-// a higher rung, else none.
-MatchedPoints Climb(const MatchedPoints& mutual_matches,
+// Climbs from `summary`, that of rung 0 on the matches given first, and
+// replaces it by a better one. The problem must have clouds. `mutual_matches`
+// are all that the front end found, in the frames of the problem. Returns the
+// matches of the answer if it is from a higher rung, else none.
+MatchedPoints Climb(const PointsRef& matched_source,
+                    const PointsRef& matched_target,
+                    const MatchedPoints& mutual_matches,
                     const LevelProblem& problem,
                     RegistrationSummary* summary);
 

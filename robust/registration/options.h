@@ -84,8 +84,9 @@ struct RegistrationOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Returns the options with all lengths of the front end, the noise bound, the covariance
-// and the refinement times `factor` > 0. The bounds on the pose are as given.
+// Returns the options with all lengths of the front end, the noise bound, the
+// covariance and the refinement times `factor` > 0. The bounds on the pose are
+// as given.
 RegistrationOptions ScaledBy(double factor, RegistrationOptions options);
 
 // Returns the options with seed, threads and noise bound set in every part.

@@ -191,6 +191,10 @@ PoseSearch::PoseSearch(const DescribedCloud& source,
 
 PoseSearch::~PoseSearch() = default;
 
+Rigid3 PoseSearch::Align(const Rigid3& target_from_source) const {
+  return aligner_ ? aligner_->Align(target_from_source) : target_from_source;
+}
+
 void PoseSearch::Propose(const PointsRef& matched_source,
                          const PointsRef& matched_target,
                          const std::string& origin,

@@ -99,6 +99,10 @@ class PoseSearch {
                                   const std::string& origin,
                                   const PoseBounds& bounds) const;
 
+  // The pose aligned with the clouds by VG-ICP in SE(3), starting from any
+  // pose.
+  Rigid3 Align(const Rigid3& target_from_source) const;
+
   // The score of any pose.
   GeometricScore ScoreOf(const Rigid3& target_from_source) const {
     return scorer_.At(target_from_source);

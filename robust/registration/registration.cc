@@ -70,7 +70,8 @@ void RegisterBehindDoor(const Matches& matches,
     const LevelProblem problem{
         source, target, bounds, options, prepared.solver};
     RegisterLevel(p, q, problem, summary);
-    if (mutual_matches) rung_matches = Climb(*mutual_matches, problem, summary);
+    if (mutual_matches)
+      rung_matches = Climb(p, q, *mutual_matches, problem, summary);
   };
   if (frames.AreIdentity()) {
     run(matches.source,
