@@ -60,8 +60,9 @@ struct ScaledMatches {
   std::vector<Eigen::Index> columns;  // Distinct matches.
   Points source;
   Points target;
-  Eigen::Vector3d source_mean;
-  Eigen::Vector3d target_mean;
+  // Eigen adds rows in an order that depends on the alignment of the result.
+  alignas(16) Eigen::Vector3d source_mean;
+  alignas(16) Eigen::Vector3d target_mean;
   double extent = 1.0;  // D [m].
   double delta = 0.0;   // The noise bound over D.
 };

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "experiments/programs/options_json.h"
 #include "robust/estimators/quatro.h"
 #include "tests/support/matched_problems.h"
 

@@ -188,6 +188,7 @@ TEST(Ladder, CandidatesAreWithinTheBounds) {
   RegistrationOptions options;
   options.bounds.guess = *FarPair().true_target_from_source;
   options.bounds.max_translation = 5.0;
+  options.verdict.min_probability = 1.0;  // Search in any case.
   const RegistrationSummary near = RegisterFar(options);
   ExpectTrue(near.target_from_source());
   EXPECT_FALSE(near.candidates.empty());
@@ -195,7 +196,8 @@ TEST(Ladder, CandidatesAreWithinTheBounds) {
     EXPECT_TRUE(options.bounds.Contain(candidate.target_from_source,
                                        options.noise_bound));
   }
-  // Where the true pose is excluded, nothing is registered.
+  // If the true pose is excluded, nothing is registered.
+  options.verdict = VerdictOptions();
   options.bounds.guess.translation.x() += 40.0;
   const RegistrationSummary far = RegisterFar(options);
   EXPECT_FALSE(far.verdict.IsRegistered());
