@@ -142,7 +142,7 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
       hardest.world = name;
       hardest.wrong_share = 0.1;
       hardest.seed = static_cast<std::uint64_t>(seed);
-      if (!quatro::MakeGraphWorld(hardest, &error)) return Fail("--" + error);
+      if (!quatro::MakeGraphWorld(hardest, &error)) return Fail(error);
     }
   }
   const quatro::Table table = quatro::RunWrongLoopProtocol(
@@ -209,7 +209,7 @@ int Main(int argc, char** argv) {
   quatro::PoseGraph graph;
   if (FLAGS_input.empty()) {
     world = quatro::MakeGraphWorld(WorldFromFlags(), &error);
-    if (!world) return Fail("--" + error);
+    if (!world) return Fail(error);
     graph = world->graph;
   } else {
     if (!FLAGS_world_output.empty()) {
