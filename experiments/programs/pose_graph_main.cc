@@ -101,10 +101,7 @@ std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
                           ? quatro::GncStart::kIdentity
                           : quatro::GncStart::kPlainFit;
   options.gnc.mu_step = FLAGS_mu_step;
-  if (!options.gnc.IsValid(error)) {
-    *error = "--" + *error;
-    return std::nullopt;
-  }
+  if (!options.gnc.IsValid(error)) return std::nullopt;
   return options;
 }
 

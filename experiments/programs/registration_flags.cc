@@ -117,7 +117,6 @@ bool ApplyFlags(const RegistrationFlags& flags,
   if (!flags.refine.empty() &&
       !SetOption(
           RefinementOptionList(options), "refine", flags.refine, error)) {
-    *error = "--" + *error;
     return false;
   }
   const auto ins = ParseInsFlags(flags.ins, error);

@@ -269,7 +269,7 @@ TEST_F(RegisterProgramTest, AnOdometryIsOfAnotherProgram) {
 }
 
 TEST_F(RegisterProgramTest, UnknownRefinement) {
-  ExpectRefusedFlag("--refine=best", "--refine = best", "none, icp, gicp");
+  ExpectRefusedFlag("--refine=best", "--refine=best", "none, icp, gicp");
 }
 
 TEST_F(RegisterProgramTest, StrayArgument) {
