@@ -42,6 +42,10 @@ std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
   std::error_code status;
   fs::path place = fs::path(folder) / "velodyne";
   if (!fs::is_directory(place, status)) place = folder;
+  if (fs::is_regular_file(place, status)) {
+    *error = folder + ": is a file, must be a folder of scans";
+    return std::nullopt;
+  }
   std::map<int, std::string> scans;
   for (fs::directory_iterator it(place, status), end; !status && it != end;
        it.increment(status)) {

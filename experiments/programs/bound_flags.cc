@@ -121,6 +121,12 @@ std::optional<PoseBounds> ParseBoundFlags(const BoundFlags& flags,
   }
   if (flags.max_yaw_deg < 180.0) bounds.max_yaw = flags.max_yaw_deg * kDegree;
   bounds.max_tilt = flags.max_tilt_deg * kDegree;
+  if (flags.max_tilt_deg != BoundFlags().max_tilt_deg && !bounds.IsActive()) {
+    *error =
+        "--max_tilt_deg has no effect without other bounds; add "
+        "--max_translation [m] or --max_yaw_deg";
+    return std::nullopt;
+  }
   if (flags.guess.empty()) return bounds;
   if (!bounds.IsActive() && !is_local) {
     *error =

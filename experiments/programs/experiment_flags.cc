@@ -158,10 +158,7 @@ std::optional<RunMethods> MethodsOfFlags(const std::vector<OwnMethod>& own,
   methods.names = SplitNames(FLAGS_methods);
   methods.use_auto_options = FLAGS_preset == "auto";
   methods.reading.point_floats = FLAGS_point_floats;
-  if (!methods.reading.IsValid(error)) {
-    *error = "--" + *error;
-    return std::nullopt;
-  }
+  if (!methods.reading.IsValid(error)) return std::nullopt;
   const auto options = OptionsOfFlags(error);
   if (!options) return std::nullopt;
   methods.options = *options;

@@ -101,10 +101,7 @@ std::optional<quatro::PoseGraphOptions> OptionsFromFlags(std::string* error) {
                           ? quatro::GncStart::kIdentity
                           : quatro::GncStart::kPlainFit;
   options.gnc.mu_step = FLAGS_mu_step;
-  if (!options.gnc.IsValid(error)) {
-    *error = "--" + *error;
-    return std::nullopt;
-  }
+  if (!options.gnc.IsValid(error)) return std::nullopt;
   return options;
 }
 
@@ -142,7 +139,7 @@ int RunProtocol(const quatro::PoseGraphOptions& options) {
       hardest.world = name;
       hardest.wrong_share = 0.1;
       hardest.seed = static_cast<std::uint64_t>(seed);
-      if (!quatro::MakeGraphWorld(hardest, &error)) return Fail("--" + error);
+      if (!quatro::MakeGraphWorld(hardest, &error)) return Fail(error);
     }
   }
   const quatro::Table table = quatro::RunWrongLoopProtocol(
@@ -208,7 +205,7 @@ int Main(int argc, char** argv) {
   quatro::PoseGraph graph;
   if (FLAGS_input.empty()) {
     world = quatro::MakeGraphWorld(WorldFromFlags(), &error);
-    if (!world) return Fail("--" + error);
+    if (!world) return Fail(error);
     graph = world->graph;
   } else {
     if (!FLAGS_world_output.empty()) {

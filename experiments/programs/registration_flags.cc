@@ -201,7 +201,6 @@ bool ApplyFlags(const std::string& method,
   }
   if (!refine.empty() &&
       !SetOption(RefinementOptionList(options), "refine", refine, error)) {
-    *error = "--" + *error;
     return false;
   }
   const auto ins = ParseInsFlags({FLAGS_ins_mode,

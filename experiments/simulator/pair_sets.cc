@@ -104,7 +104,7 @@ bool PairSetOptions::IsValid(std::string* error) const {
   } else if (sensor != "auto" && !MakeSensor(sensor, &lower)) {
     problem << "sensor = " << lower << " auto";
   } else if (!options.IsValid(&lower)) {
-    problem << lower;
+    problem << (lower.starts_with("distance") ? "max_" : "") << lower;
   }
   *error = problem.str();
   return error->empty();

@@ -82,6 +82,9 @@ std::optional<std::string> ReadWholeFile(const std::string& path,
   struct stat status = {};
   if (file.get() < 0 || fstat(file.get(), &status) != 0) {
     *error = SystemError(path, "cannot open");
+    if (path.starts_with("~/")) {
+      *error += "; the shell left ~ as it is, write $HOME in its place";
+    }
     return std::nullopt;
   }
   if (!S_ISREG(status.st_mode)) {

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "features/base/file.h"
 #include "features/base/foreign_file.h"
@@ -62,7 +64,7 @@ std::string ReasonOf(CloudFormat format,
     return "is gzip-compressed; add .gz to its name, or run gunzip";
   }
   const std::string_view foreign = DescribeForeignFile(bytes);
-  if (!foreign.empty() && format != CloudFormat::kNpy) {
+  if (!foreign.empty() && !bytes.starts_with(kNpyMagic)) {
     return std::string(foreign);
   }
   if (is(CloudFormat::kPcd, "# .PCD")) return "is a PCD file; name it .pcd";
@@ -113,7 +115,8 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
                                     std::string* error) {
   if (!options.IsValid(error)) return std::nullopt;
   const auto type = FindCloudFileType(path);
-  if (!type) {
+  std::error_code ignored;
+  if (!type && !std::filesystem::is_directory(path, ignored)) {
     *error = path + ": " + UnknownEnding(path, kReadableClouds);
     return std::nullopt;
   }

@@ -116,13 +116,22 @@ CloudColumns FirstColumns(std::size_t num_columns) {
   return columns;
 }
 
+// Control characters are not in text, in whatever encoding.
+bool LooksBinary(std::string_view bytes) {
+  constexpr std::size_t kNumBytes = 512;
+  const std::string_view start = bytes.substr(0, kNumBytes);
+  return std::any_of(start.begin(), start.end(), [](char c) {
+    return (c >= '\0' && c < '\t') || (c > '\r' && c < ' ') || c == '\x7f';
+  });
+}
+
 class PointTextParser {
  public:
   PointTextParser(std::string_view bytes, std::string* error)
       : bytes_(bytes), lines_(bytes), error_(*error) {}
 
   std::optional<PointCloud> Parse() {
-    if (bytes_.substr(0, 512).find('\0') != std::string_view::npos) {
+    if (LooksBinary(bytes_)) {
       error_ = "is binary, not text with a point on each line";
       return std::nullopt;
     }

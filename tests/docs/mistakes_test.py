@@ -21,9 +21,12 @@ BEGIN, END = '<!-- mistakes -->\n', '<!-- end of mistakes -->\n'
 COMMANDS = [
     ('A file that is not there', 'quatro_register --source=c.bin --target=b.bin'),
     ('A format that is not known', 'quatro_register --source=a.las --target=b.bin'),
+    ('A NumPy array that is cut off', 'quatro_register --source=cut.npy --target=b.bin'),
+    ('Points with decimal commas', 'quatro_register --source=commas.csv --target=b.bin'),
     ('Text named `.bin`', 'quatro_register --source=text.bin --target=b.bin'),
     ('Matches with semicolons', 'quatro_solve --correspondences=semicolons.csv'),
     ('A flag that is misspelled', 'quatro_register --source=a.bin --target=b.bin --voxelsize=0.3'),
+    ('A flag that is given twice', 'quatro_register --source=a.bin --target=b.bin --seed=1 --seed=2'),
     ('A method that is not known', 'quatro_register --source=a.bin --target=b.bin --method=teaser++'),
     ('A length that is negative', 'quatro_register --source=a.bin --target=b.bin --voxel_size=-0.3'),
     ('An input as output', 'quatro_register --source=a.ply --target=b.bin --output=a.ply'),
@@ -49,6 +52,9 @@ def make_inputs(folder):
     (folder / 'a.ply').write_text('\n'.join([
         'ply', 'format ascii 1.0', f'element vertex {len(lines)}', 'property float x',
         'property float y', 'property float z', 'end_header', *lines]) + '\n')
+    (folder / 'commas.csv').write_text('x;y;z\n1,5;2,5;3,5\n')
+    header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1000, 4), }".ljust(117) + '\n'
+    (folder / 'cut.npy').write_bytes(b'\x93NUMPY\x01\x00\x76\x00' + header.encode() + four[:8000])
     (folder / 'semicolons.csv').write_text('1;2;3;4;5;6\n')
     (folder / 'five.csv').write_text('1,2,3,4,5\n')
 

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +19,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quatro {
@@ -39,6 +41,23 @@ inline std::string ReadFromStart(std::FILE* file) {
   return bytes;
 }
 
+// The last of each flag --name=value: a test's own replace its fixture's, which
+// the programs would refuse.
+inline std::vector<std::string> WithoutReplaced(
+    const std::vector<std::string>& args) {
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < args.size(); ++i) {
+    const std::string name = args[i].substr(0, args[i].find('=') + 1);
+    const bool is_replaced =
+        name.starts_with("--") &&
+        std::any_of(args.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                    args.end(),
+                    [&](const auto& arg) { return arg.starts_with(name); });
+    if (!is_replaced) kept.push_back(args[i]);
+  }
+  return kept;
+}
+
 // bin/<name> of the build. With `out_path` its output goes there, and with
 // `in_path` its input is this file's.
 inline ProgramRun RunProgram(const std::string& name,
@@ -46,7 +65,9 @@ inline ProgramRun RunProgram(const std::string& name,
                              const char* out_path = nullptr,
                              const char* in_path = nullptr) {
   std::vector<std::string> command = {std::string(QUATRO_BIN_DIR) + "/" + name};
-  command.insert(command.end(), args.begin(), args.end());
+  for (std::string& arg : WithoutReplaced(args)) {
+    command.push_back(std::move(arg));
+  }
   std::vector<char*> argv;
   for (std::string& arg : command) argv.push_back(arg.data());
   argv.push_back(nullptr);

@@ -119,7 +119,7 @@ TEST_F(BenchmarkProgramTest, RefusesBadInput) {
   expect({"--sizes=2"}, "--sizes=2", "from 3");
   expect({"--sizes=1e9"}, "--sizes=1e9", "to 10000000");
   expect({"--preset=boat"}, "--preset=boat", "kitti");
-  expect({"--threads=-1"}, "num_threads = -1", ">= 0");
+  expect({"--threads=-1"}, "--threads=-1", ">= 0");
   expect({"--source=" + path}, "--target is empty", "name both");
   expect({"--source=" + path, "--target=" + PathOf("b.bin")}, "b.bin", "");
   expect({"--source=" + path, "--target=" + none}, "none.bin", "empty");

@@ -479,6 +479,26 @@ TEST_F(KittiTest, ABlankLineAmongPosesIsRefused) {
   ExpectLine(error, "p.txt: line 2", "is blank, must have 12 numbers");
 }
 
+TEST_F(KittiTest, ScansMayBeOfAnyBinaryFormat) {
+  PutScan("drive/velodyne/000000.bin");
+  for (const char* name : {"000001.npy", "000002.bin.gz", "000003.PLY"}) {
+    Put(std::string("drive/velodyne/") + name, "x");
+  }
+  Put("drive/velodyne/times.txt", "0.0");
+  std::string error;
+  const auto scans = ListScans(PathOf("drive"), &error);
+  ASSERT_TRUE(scans) << error;
+  EXPECT_EQ(scans->size(), 4u);
+  EXPECT_EQ(scans->at(2), PathOf("drive/velodyne/000002.bin.gz"));
+  EXPECT_FALSE(ListScans(PathOf("drive/velodyne/times.txt"), &error));
+  EXPECT_EQ(error,
+            PathOf("drive/velodyne/times.txt") +
+                ": is a file, must be a folder of scans");
+  Put("drive/velodyne/000002.npy", "x");
+  EXPECT_FALSE(ListScans(PathOf("drive"), &error));
+  EXPECT_THAT(error, HasSubstr("there is another scan of frame 2"));
+}
+
 TEST_F(KittiTest, ADriveStartsAtItsFirstScan) {
   for (const char* name : {"004391.bin", "004392.bin", "004393.bin"}) {
     PutScan(std::string("drive/velodyne/") + name);

@@ -106,7 +106,7 @@ TEST_F(OdometryProgramTest, IntervalAndFramesPickTheScans) {
 
 TEST_F(OdometryProgramTest, MostlyLostIsNotVouchedFor) {
   for (const char* name : {"0.bin", "1.bin", "2.bin"}) {
-    Write(name, std::string(160, '\0'));
+    Write(name, std::string(160, '\1'));
   }
   const ProgramRun run =
       RunProgram("quatro_odometry", {"--input=" + PathOf(""), "--method=suma"});
@@ -117,7 +117,7 @@ TEST_F(OdometryProgramTest, MostlyLostIsNotVouchedFor) {
 
 TEST_F(OdometryProgramTest, EndsWithTheLastFileAndRefusesAStrayOne) {
   for (const char* name : {"0.bin", "1.bin", "2.bin"}) {
-    Write(name, std::string(160, '\0'));
+    Write(name, std::string(160, '\1'));
   }
   const std::string input = "--input=" + PathOf("");
   const ProgramRun run =
@@ -193,9 +193,9 @@ TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {
   ExpectBadInput(
       program, {"--input=" + PathOf("none")}, "none", "No such file");
   ExpectBadInput(program, {drive, "--method=loam"}, "--method=loam", "suma");
-  ExpectBadInput(program, {drive, "--interval=0"}, "interval = 0", ">= 1");
+  ExpectBadInput(program, {drive, "--interval=0"}, "--interval=0,", ">= 1");
   ExpectBadInput(
-      program, {drive, "--first_frame=9"}, "first_frame = 9", "after the last");
+      program, {drive, "--first_frame=9"}, "--first_frame=9", "after the last");
   Write("short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
   ExpectBadInput(program,
                  {drive, "--truth=" + PathOf("short.txt")},

@@ -86,6 +86,8 @@ TEST_F(BoundFlagsTest, WhatIsWrongIsToldWithWhatToDo) {
   EXPECT_THAT(Problem({"1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2", 5.0}),
               HasSubstr("the last row must be 0 0 0 1"));
   EXPECT_THAT(Problem({"1,2,3,4"}), HasSubstr("--guess has no effect"));
+  EXPECT_THAT(Problem({"", 0.0, 180.0, 2.0}),
+              HasSubstr("--max_tilt_deg has no effect without other bounds"));
 }
 
 TEST_F(BoundFlagsTest, ALocalMethodTakesAGuessAlone) {

@@ -294,7 +294,7 @@ TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
                     "--data=" + PathOf("nowhere"),
                     "--output=" + PathOf("run"),
                     std::string("--yaw_step_deg=") + text},
-                   std::string("yaw_step_deg = ") + text,
+                   std::string("--yaw_step_deg=") + text,
                    "must be in [0.01, 180]");
   }
   for (const char* text : {"0", "1000001", "2147483647"}) {

@@ -179,7 +179,7 @@ TEST(Methods, QuatroInsNeedsAnIns) {
   RegistrationSummary summary = RunMethod("quatro_ins", problem, options);
   EXPECT_THAT(summary.error, HasSubstr("needs an INS"));
   EXPECT_THAT(summary.error, HasSubstr("ins_mode"));
-  EXPECT_THAT(summary.error, HasSubstr("roll, pitch and yaw"));
+  EXPECT_THAT(summary.error, HasSubstr("source_rpy and target_rpy"));
   EXPECT_FALSE(summary.target_from_source());
   // An axis has another meaning.
   options.ins.up = Eigen::Vector3d::UnitX();

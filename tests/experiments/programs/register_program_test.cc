@@ -206,7 +206,7 @@ TEST_F(RegisterProgramTest, PcdOfUnknownData) {
 }
 
 TEST_F(RegisterProgramTest, UnknownEnding) {
-  ExpectRefused("a.xyz", "1 2 3\n", "ending '.xyz'");
+  ExpectRefused("a.las", "1 2 3\n", "ending '.las'");
 }
 
 TEST_F(RegisterProgramTest, AllNan) {
@@ -265,11 +265,11 @@ TEST_F(RegisterProgramTest, UnknownMethod) {
 }
 
 TEST_F(RegisterProgramTest, AnOdometryIsOfAnotherProgram) {
-  ExpectRefusedFlag("--method=aloam", "method aloam", "quatro_odometry");
+  ExpectRefusedFlag("--method=aloam", "--method=aloam", "quatro_odometry");
 }
 
 TEST_F(RegisterProgramTest, UnknownRefinement) {
-  ExpectRefusedFlag("--refine=best", "--refine = best", "none, icp, gicp");
+  ExpectRefusedFlag("--refine=best", "--refine=best", "none, icp, gicp");
 }
 
 TEST_F(RegisterProgramTest, StrayArgument) {

@@ -32,6 +32,7 @@ PairSetOptions SetOf(WorldKind world, bool no_overlap = false) {
   options.num_pairs = 2;
   options.no_overlap = no_overlap;
   if (world == WorldKind::kHill) options.min_distance = 8.0;
+  if (world == WorldKind::kRoom) options.max_distance = 2.0;
   return options;
 }
 
@@ -59,8 +60,9 @@ double ShareThatFits(const SetPair& pair, const Rigid3& pose) {
 TEST(SimulateSetPairTest, TruePoseFitsAndOthersDoNot) {
   for (const std::string& name : WorldNames()) {
     PairSetOptions options = SetOf(*WorldByName(name));
-    options.min_distance = 5.0;
-    options.max_distance = 10.0;
+    const bool is_small = options.world == WorldKind::kRoom;
+    options.min_distance = is_small ? 0.5 : 5.0;
+    options.max_distance = is_small ? 1.0 : 10.0;
     options.sensor = "hdl64e";  // Dense enough for 0.1 m.
     const SetPair pair = Simulate(options, 0);
     ASSERT_TRUE(pair.true_target_from_source.has_value());
@@ -69,6 +71,28 @@ TEST(SimulateSetPairTest, TruePoseFitsAndOthersDoNot) {
     const double share = ShareThatFits(pair, truth);
     EXPECT_GT(share, 0.4) << name;
     EXPECT_LT(ShareThatFits(pair, off * truth), 0.5 * share) << name;
+  }
+}
+
+// Otherwise most pairs would not overlap.
+TEST(SimulateSetPairTest, TheYawOfANarrowViewIsAtMostHalfOfIt) {
+  constexpr double kDegree = M_PI / 180.0;
+  double largest = 0.0;
+  for (const int index : {0, 1, 2, 3, 4, 5}) {
+    const SetPair pair = Simulate(SetOf(WorldKind::kRoom), index);
+    EXPECT_EQ(pair.sensor, "depth_camera");
+    const double yaw = std::abs(Yaw(pair.true_target_from_source->rotation));
+    EXPECT_LT(yaw, 30.0 * kDegree);
+    largest = std::max(largest, yaw);
+  }
+  EXPECT_GT(largest, 10.0 * kDegree);
+  PairSetOptions hall = SetOf(WorldKind::kHall);
+  hall.max_distance = 2.0;
+  hall.sensor = "livox";
+  for (const int index : {0, 1, 2, 3}) {
+    const SetPair pair = Simulate(hall, index);
+    EXPECT_LT(std::abs(Yaw(pair.true_target_from_source->rotation)),
+              36.0 * kDegree);
   }
 }
 
@@ -259,6 +283,10 @@ TEST(PairSetOptionsTest, InvalidOptionsAreNamed) {
   options.min_distance = 31.0;
   EXPECT_FALSE(options.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("min_distance = 31, must be in [0, max_"));
+  options = {};
+  options.world = WorldKind::kRoom;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_EQ(error, "max_distance = 30 in a room, must be <= 3");
   options = {};
   options.sensor = "radar";
   EXPECT_FALSE(options.IsValid(&error));

@@ -213,9 +213,15 @@ TEST_F(CloudIoTest, RefusesAMissingFile) {
               HasSubstr("No such file or directory"));
 }
 
+TEST_F(CloudIoTest, SaysThatTheShellDidNotExpandATilde) {
+  EXPECT_THAT(ErrorAt("~/quatro.ply"),
+              HasSubstr("the shell left ~ as it is, write $HOME"));
+}
+
 TEST_F(CloudIoTest, RefusesADirectory) {
   std::filesystem::create_directory(PathOf("directory.bin"));
   EXPECT_EQ(ErrorAt(PathOf("directory.bin")), "is a directory, not a file");
+  EXPECT_EQ(ErrorAt(directory_), "is a directory, not a file");
 }
 
 TEST_F(CloudIoTest, RefusesAPipeWithoutWaitingForItsWriter) {
@@ -1209,6 +1215,8 @@ TEST_F(CloudIoTest, ANumPyArrayNamedBinIsNotRead) {
   EXPECT_EQ(Read("a.npy", npy).points.cols(), 99);
   EXPECT_EQ(ErrorOf("a.bin", npy), "is a NumPy array; name it .npy");
   EXPECT_EQ(ErrorOf("a.csv", npy), "is a NumPy array; name it .npy");
+  EXPECT_EQ(ErrorOf("a.npy", "PK\x03\x04" + npy),
+            "is a zip archive; unpack it");  // As an .npz is.
 }
 
 TEST_F(CloudIoTest, TheEndingsOfTextAreOneFormat) {

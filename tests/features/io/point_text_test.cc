@@ -133,8 +133,10 @@ TEST(ParsePointText, NamesTheLineAndTheReason) {
             "numbers x y z");
   EXPECT_EQ(ErrorOf("# nothing\n\n"), "points: there are none");
   EXPECT_EQ(ErrorOf("17\n"), "points: there are none");
-  EXPECT_EQ(ErrorOf(std::string("\x01\0\x02", 3)),
-            "is binary, not text with a point on each line");
+  for (const char c : {'\0', '\x08', '\x0e', '\x1f', '\x7f'}) {
+    EXPECT_EQ(ErrorOf(std::string("1 2 3\n") + c),
+              "is binary, not text with a point on each line");
+  }
 }
 
 }  // namespace
