@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
     std::cerr << error << "\n";
     return 2;
   }
-  const auto result =
-      quatro::Register(*source, *target, *quatro::MakePreset("kitti"));
+  const auto result = quatro::Register(
+      *source, *target, quatro::MakeAutoOptions(*source, *target));
   std::cout << quatro::StatusName(result.verdict.status) << ": "
             << result.verdict.reason << "\n";
   const auto& pose = result.target_from_source();

@@ -116,6 +116,47 @@ Json DescribeStages(const RegistrationSummary& summary,
   return stages;
 }
 
+double Rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
+
+// The best candidates of the search, and how far each is from the answer.
+Json DescribeCandidates(const RegistrationSummary& summary) {
+  constexpr std::size_t kNumDescribed = 5;
+  std::vector<const PoseCandidate*> best;
+  for (const PoseCandidate& candidate : summary.candidates) {
+    best.push_back(&candidate);
+  }
+  std::stable_sort(best.begin(),
+                   best.end(),
+                   [](const PoseCandidate* a, const PoseCandidate* b) {
+                     return a->Score() > b->Score();
+                   });
+  best.resize(std::min(best.size(), kNumDescribed));
+  const Eigen::Vector3d middle =
+      summary.matched_source.cols() > 0
+          ? Eigen::Vector3d(summary.matched_source.rowwise().mean())
+          : Eigen::Vector3d::Zero();
+  const auto& answer = summary.target_from_source();
+  Json candidates = Json::array();
+  for (const PoseCandidate* candidate : best) {
+    const Rigid3& pose = candidate->target_from_source;
+    Json described = {
+        {"origin", candidate->origin},
+        {"score", Rounded(candidate->Score())},
+        {"overlap", Rounded(candidate->geometry.overlap)},
+        {"contradicted", Rounded(candidate->geometry.contradicted_share)},
+        {"likelihood", Rounded(candidate->log_likelihood_ratio)},
+        {"shift_m", nullptr},
+        {"turn_deg", nullptr}};
+    if (answer) {
+      described["shift_m"] = Rounded((pose * middle - *answer * middle).norm());
+      described["turn_deg"] =
+          Rounded(180.0 / M_PI * AngleBetween(pose.rotation, answer->rotation));
+    }
+    candidates.push_back(std::move(described));
+  }
+  return candidates;
+}
+
 Json Describe(const MethodAnswer& answer, const Json& stages) {
   const RegistrationSummary& summary = answer.summary;
   Json features = Json::object();
@@ -131,6 +172,8 @@ Json Describe(const MethodAnswer& answer, const Json& stages) {
           {"reason", summary.verdict.reason},
           {"pose", Rows(summary.target_from_source())},
           {"features", features},
+          {"rung", summary.rung},
+          {"candidates", DescribeCandidates(summary)},
           {"notes", notes},
           {"stages", stages}};
 }

@@ -9,7 +9,11 @@
 //   truth            4 x 4 rows, or null
 //   matches          source, target: like xyz above, on the cloud's own grid
 //   methods          name, status, reason, pose (4 x 4 rows or null), notes,
-//                    features (of the verdict), and stages
+//                    features (of the verdict), rung, candidates and stages
+//
+// `candidates` are at most five poses of the search, the best first: origin,
+// score, overlap, contradicted (share), likelihood (log ratio), and shift_m and
+// turn_deg from the answer, or null without one.
 //
 // `stages` is null for a method without matches or with other matches than the
 // first method. Otherwise it has

@@ -73,9 +73,10 @@ Eigen::Index CountVoxels(const PointCloud& cloud, double voxel_size) {
 // spacing.
 double SizeForWantedVoxels(const PointCloud& cloud) {
   constexpr double kUsualMin = 0.01;  // [m]
+  constexpr double kUsualMax = 10.0;  // [m]
   constexpr double kMinShare = 1e-4;  // Share of the extent of a smaller cloud.
   double low = std::log(kUsualMin);
-  double high = std::log(10.0);
+  double high = std::log(kUsualMax);
   const double extent =
       (cloud.points.rowwise().maxCoeff() - cloud.points.rowwise().minCoeff())
           .maxCoeff();
@@ -84,10 +85,18 @@ double SizeForWantedVoxels(const PointCloud& cloud) {
     low = std::log(kMinShare * extent);
     high = std::log(kUsualMin);
   }
-  for (int i = 0; i < 8; ++i) {
-    const double middle = 0.5 * (low + high);
-    (CountVoxels(cloud, std::exp(middle)) > kWantedVoxels ? low : high) =
-        middle;
+  const auto bisect = [&] {
+    for (int i = 0; i < 8; ++i) {
+      const double middle = 0.5 * (low + high);
+      (CountVoxels(cloud, std::exp(middle)) > kWantedVoxels ? low : high) =
+          middle;
+    }
+  };
+  bisect();
+  if (std::exp(high) >= kUsualMax && extent > kUsualMax) {
+    low = std::log(kUsualMax);
+    high = std::log(extent);
+    bisect();
   }
   return std::exp(high);
 }

@@ -48,6 +48,26 @@ function valueTable(title, entries) {
       entries).element);
 }
 
+// Why this pose: what the search found, the best first.
+function candidateTable(method) {
+  if (method.candidates.length === 0) return null;
+  const number = (name, key, digits, title) => ({
+    name, title, isNumber: true, value: (row) => row[key],
+    text: (row) => row[key] === null ? '' : fixed(row[key], digits),
+  });
+  return el('details', {open: method.rung > 0},
+            el('summary', {}, `candidates of the search (the answer is from rung ${method.rung})`),
+            sortableTable(
+                [{name: 'from', value: (row) => row.origin},
+                 number('score', 'score', 2, 'overlap, lowered by contradicted structure, times the surprise of the matches'),
+                 number('overlap', 'overlap', 2, 'share of the structure that overlaps'),
+                 number('contradicted', 'contradicted', 2, 'share of structure in the free space of the other scan'),
+                 number('log ratio', 'likelihood', 1, 'how much better than chance its matches are explained'),
+                 number('shift [m]', 'shift_m', 2, 'from the answer'),
+                 number('turn [deg]', 'turn_deg', 1, 'from the answer')],
+                method.candidates).element);
+}
+
 export class PairPanel {
   // rowOf(pair, method) returns the row in the table of pairs.
   constructor(rowOf, onopen) {
@@ -78,6 +98,7 @@ export class PairPanel {
         method.stages ? stageTable(method.stages) : '',
         method.pose ? el('details', {open: true}, el('summary', {}, 'target from source'),
                          el('pre', {}, matrixText(method.pose))) : '',
+        candidateTable(method) ?? '',
         valueTable('times [ms]', row.stages ?? []) ?? '',
         valueTable('features of the probability', Object.entries(method.features)) ?? '',
         valueTable('notes by stage', method.notes) ?? '');

@@ -233,6 +233,34 @@ TEST_F(PairViewTest, MethodsShareMatchesOrHaveNoStages) {
   EXPECT_TRUE(view["methods"][2]["stages"]["weight"].is_null());
 }
 
+TEST_F(PairViewTest, CandidatesAreTheBestAndComparedWithTheAnswer) {
+  EXPECT_TRUE(View({})["methods"][0]["candidates"].empty());
+  const Rigid3 pose = *answer_.summary.target_from_source();
+  for (int k = 0; k < 7; ++k) {
+    PoseCandidate candidate;
+    candidate.target_from_source = pose;
+    candidate.target_from_source.translation.x() += k;
+    candidate.origin = "rung 1";
+    candidate.log_likelihood_ratio = 100.0;
+    candidate.geometry.overlap = 0.1 * (k + 1);
+    answer_.summary.candidates.push_back(candidate);
+  }
+  answer_.summary.rung = 1;
+  const auto method = View({})["methods"][0];
+  EXPECT_EQ(method["rung"], 1);
+  ASSERT_EQ(method["candidates"].size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const auto& candidate = method["candidates"][k];
+    EXPECT_NEAR(candidate["overlap"].get<double>(),
+                0.1 * (7.0 - static_cast<double>(k)),
+                1e-9);
+    EXPECT_NEAR(
+        candidate["shift_m"].get<double>(), 6.0 - static_cast<double>(k), 1e-3);
+    EXPECT_EQ(candidate["turn_deg"], 0.0);
+  }
+  EXPECT_NEAR(method["candidates"][0]["score"].get<double>(), 7.0, 1e-9);
+}
+
 TEST_F(PairViewTest, WithoutTruthNothingIsCalledRight) {
   pair_.true_target_from_source.reset();
   const auto view = View({});

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "experiments/simulator/pair_sets.h"
 #include "robust/registration/presets.h"
@@ -145,6 +146,68 @@ TEST(Ladder, IsNotClimbedWithoutNeed) {
   for (const char* preset : {"paper", "reference"}) {
     EXPECT_EQ(MakePreset(preset)->search.max_rung, 0) << preset;
   }
+}
+
+// Scans tilted against each other, whose pose by yaw alone is registered.
+class TiltedPair : public ::testing::Test {
+ protected:
+  TiltedPair() {
+    PairSetOptions pairs;
+    pairs.world = WorldKind::kHill;
+    pairs.max_distance = 12.0;
+    pairs.min_tilt = 0.1;
+    yaw_only_.quatro.polish = false;
+    std::string error;
+    for (int index = 0; index < 12 && !pair_; ++index) {
+      auto drawn = SimulateSetPair(pairs, index, &error);
+      EXPECT_TRUE(drawn) << error;
+      RegistrationOptions single = yaw_only_;
+      single.method = "quatro_single";
+      RegistrationSummary summary =
+          Register(drawn->source, drawn->target, single);
+      if (!summary.verdict.IsRegistered()) continue;
+      pair_ = std::move(drawn);
+      single_ = std::move(summary);
+    }
+  }
+
+  double RotationError(const RegistrationSummary& summary) const {
+    return AngleBetween(summary.target_from_source()->rotation,
+                        pair_->true_target_from_source->rotation);
+  }
+
+  RegistrationOptions yaw_only_;
+  std::optional<SetPair> pair_;
+  RegistrationSummary single_;
+};
+
+TEST_F(TiltedPair, IsAlignedBeforeItsPoseCounts) {
+  ASSERT_TRUE(pair_) << "no pose by yaw alone is registered";
+  EXPECT_GT(RotationError(single_), 0.08);
+  const RegistrationSummary summary =
+      Register(pair_->source, pair_->target, yaw_only_);
+  ASSERT_TRUE(summary.target_from_source());
+  EXPECT_LT(RotationError(summary), 0.03);
+  EXPECT_TRUE(summary.verdict.IsRegistered()) << summary.verdict.reason;
+  EXPECT_EQ(summary.rung, 0);
+  EXPECT_EQ(summary.matched_source, single_.matched_source);
+}
+
+// The tilt of an INS is not estimated again.
+TEST_F(TiltedPair, KeepsTheTiltOfAnIns) {
+  ASSERT_TRUE(pair_);
+  RegistrationOptions options = yaw_only_;
+  options.ins.mode = InsMode::kLeveled;
+  options.ins.source_attitude = pair_->source_ins;
+  options.ins.target_attitude = pair_->target_ins;
+  const RegistrationSummary summary =
+      Register(pair_->source, pair_->target, options);
+  options.method = "quatro_single";
+  const RegistrationSummary single =
+      Register(pair_->source, pair_->target, options);
+  ASSERT_TRUE(single.verdict.IsRegistered()) << single.verdict.reason;
+  EXPECT_EQ(summary.target_from_source()->ToMatrix(),
+            single.target_from_source()->ToMatrix());
 }
 
 TEST(Ladder, StopsAtTheTimeLimit) {

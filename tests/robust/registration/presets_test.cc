@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/simulator/pair_sets.h"
+#include "robust/registration/registration.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
@@ -110,12 +112,63 @@ TEST_F(AutoOptionsTest, AreValidAndInProportion) {
 TEST_F(AutoOptionsTest, ScaleWithTheCloud) {
   const double base = AutoVoxelSize(dense_, dense_);
   EXPECT_GT(base, 0.02);
-  for (const double scale : {0.5, 3.0, 10.0}) {
+  for (const double scale : {1e-3, 0.5, 3.0, 10.0, 1e3}) {
     const double scaled = AutoVoxelSize(scale * dense_, scale * dense_);
     // Found to 3 % and rounded to two digits, each of them.
     EXPECT_NEAR(scaled / (scale * base), 1.0, 0.1)
         << "scale " << scale << ", voxels " << scaled << " m for " << base;
   }
+}
+
+// The lengths of every part, so that nothing but the unit changes.
+TEST_F(AutoOptionsTest, AllLengthsAreInProportion) {
+  const RegistrationOptions one = MakeAutoOptions(0.3);
+  const RegistrationOptions ten = MakeAutoOptions(3.0);
+  const RegistrationOptions scaled = ScaledBy(10.0, one);
+  const auto lengths = [](const RegistrationOptions& o) {
+    return std::vector<double>{
+        o.front_end.voxel_size,
+        o.front_end.normal_radius,
+        o.front_end.fpfh_radius,
+        o.noise_bound,
+        o.covariance.max_translation_std,
+        o.refinement.voxel_size,
+        o.refinement.max_translation,
+        o.refinement.alignment.max_correspondence_distance,
+        o.refinement.alignment.translation_tolerance};
+  };
+  for (std::size_t k = 0; k < lengths(one).size(); ++k) {
+    EXPECT_NEAR(lengths(ten)[k], 10.0 * lengths(one)[k], 1e-12) << k;
+    EXPECT_NEAR(lengths(scaled)[k], 10.0 * lengths(one)[k], 1e-12) << k;
+  }
+  EXPECT_EQ(one.refinement.method, RefinementMethod::kVgicp);
+  EXPECT_EQ(one.search.scale_factors.size(), 3u);
+}
+
+// Scans in millimeters or kilometers give the pose in that unit.
+TEST(AutoOptions, TheUnitOfTheCloudsDoesNotMatter) {
+  PairSetOptions pairs;
+  pairs.max_distance = 10.0;
+  std::string error;
+  int num_registered = 0;
+  for (int index = 0; index < 2; ++index) {
+    const auto pair = SimulateSetPair(pairs, index, &error);
+    ASSERT_TRUE(pair) << error;
+    const Rigid3& truth = *pair->true_target_from_source;
+    for (const double unit : {1e-3, 1e3}) {
+      PointCloud source, target;
+      source.points = unit * pair->source.points;
+      target.points = unit * pair->target.points;
+      const RegistrationSummary summary =
+          Register(source, target, MakeAutoOptions(source, target));
+      ASSERT_TRUE(summary.target_from_source()) << summary.error;
+      const Rigid3& pose = *summary.target_from_source();
+      EXPECT_LT((pose.translation / unit - truth.translation).norm(), 0.3);
+      EXPECT_LT(AngleBetween(pose.rotation, truth.rotation), 0.02);
+      num_registered += summary.verdict.IsRegistered();
+    }
+  }
+  EXPECT_EQ(num_registered, 4);
 }
 
 TEST_F(AutoOptionsTest, AreTheSameWithCloudsSwapped) {
