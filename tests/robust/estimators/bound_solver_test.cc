@@ -6,9 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "robust/estimators/distinct_matches.h"
 #include "robust/estimators/quatro.h"
 #include "robust/registration/registration.h"
 #include "robust/verdict/verdict.h"
@@ -95,21 +97,23 @@ TEST(BoundSolver, APoseOutsideIsNoAnswer) {
   EXPECT_THAT(summary.message, HasSubstr("at most 3 m"));
 }
 
+// The 90 matches that follow problem.many follow `pose` instead.
+TwoPoses WithManyAt(const Rigid3& pose, TwoPoses problem) {
+  for (Eigen::Index i = 0; i < problem.source.cols(); ++i) {
+    const Eigen::Vector3d p = problem.source.col(i);
+    const Eigen::Vector3d noise = problem.target.col(i) - problem.many * p;
+    if (noise.norm() < 0.1) problem.target.col(i) = pose * p + noise;
+  }
+  problem.many = pose;
+  return problem;
+}
+
 // 60 matches follow a pose within the bounds, 90 one that is 1.8 m outside:
 // too near for its matches to be told by themselves.
 TEST(BoundSolver, TheConsensusInsideIsFoundBesideALargerOneOutside) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    TwoPoses problem = MakeTwoPoses(seed);
-    const Rigid3 outside{RotationZ(0.1), {4.8, 0.0, 0.0}};
-    for (Eigen::Index i = 0; i < problem.source.cols(); ++i) {
-      const Eigen::Vector3d noise =
-          problem.target.col(i) -
-          problem.many * Eigen::Vector3d(problem.source.col(i));
-      if (noise.norm() < 0.1) {
-        problem.target.col(i) =
-            outside * Eigen::Vector3d(problem.source.col(i)) + noise;
-      }
-    }
+    const TwoPoses problem =
+        WithManyAt({RotationZ(0.1), {4.8, 0.0, 0.0}}, MakeTwoPoses(seed));
     PoseBounds bounds;
     bounds.max_translation = 3.0;
     bounds.max_yaw = 0.4;
@@ -132,6 +136,33 @@ TEST(BoundSolver, TheConsensusInsideIsFoundBesideALargerOneOutside) {
     EXPECT_THAT(summary.Note("bounds"),
                 HasSubstr("matches, lies outside of the bounds"));
     EXPECT_EQ(summary.num_matches, static_cast<Eigen::Index>(possible.size()));
+  }
+}
+
+TEST(BoundSolver, TheConsensusInsideIsFoundBesideTwoLargerOnesOutside) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const TwoPoses problem =
+        WithManyAt({RotationZ(0.1), {4.8, 0.0, 0.0}}, MakeTwoPoses(seed));
+    const TwoPoses other = WithManyAt({RotationZ(-0.1), {-4.8, 0.0, 0.0}},
+                                      MakeTwoPoses(seed + 100));
+    std::vector<Eigen::Index> of_many;
+    for (Eigen::Index i = 0; i < other.source.cols(); ++i) {
+      if (!std::binary_search(other.of_few.begin(), other.of_few.end(), i)) {
+        of_many.push_back(i);
+      }
+    }
+    Points source(3, 240), target(3, 240);
+    source << problem.source, Columns(other.source, of_many);
+    target << problem.target, Columns(other.target, of_many);
+    PoseBounds bounds;
+    bounds.max_translation = 3.0;
+    bounds.max_yaw = 0.4;
+    const PoseSummary summary =
+        BoundSolver(Quatro(), bounds, kNoiseBound)(source, target);
+    ASSERT_TRUE(summary.IsUsable()) << summary.message;
+    EXPECT_LT((summary.target_from_source->ToMatrix() - problem.few.ToMatrix())
+                  .norm(),
+              0.1);
   }
 }
 
