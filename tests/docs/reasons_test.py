@@ -16,7 +16,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ['robust/verdict/verdict.cc', 'robust/estimators/quatro.cc', 'robust/estimators/teaser.cc', 'robust/estimators/fgr.cc',
            'robust/estimators/ransac.cc', 'robust/estimators/arc_consensus.cc', 'robust/estimators/polish.cc', 'robust/registration/refinement.cc',
-           'robust/registration/ins.cc', 'robust/estimators/bound_solver.cc', 'robust/registration/local_registration.cc', 'robust/gnc/gnc.cc', 'robust/registration/front_end.cc',
+           'robust/registration/ins.cc', 'robust/estimators/bound_solver.cc', 'robust/estimators/decoupled.cc', 'robust/registration/local_registration.cc', 'robust/gnc/gnc.cc', 'robust/registration/front_end.cc',
            'robust/registration/registration.cc', 'robust/registration/level_registration.cc', 'robust/registration/ladder.cc', 'solvers/closed_form/valid_matches.cc', 'solvers/ceres/pose_covariance.cc',
            'solvers/ceres/observability.cc', 'solvers/local/local_alignment.cc',
            'solvers/local/vgicp.cc', 'features/voxel_grid.cc', 'experiments/programs/explain.cc']
@@ -25,7 +25,7 @@ LITERAL = re.compile(r'"((?:\\.|[^"\\])*)"')
 
 def advice_alone(text):
     """Returns the part of explain.cc that gives advice; the rest describes stages."""
-    return text[text.index('std::vector<std::string> Advice'):text.index('return advice;\n}')]
+    return text[text.index('void AdviseOnMatches'):text.index('return advice;\n}')]
 
 
 def literals(path):
