@@ -17,6 +17,8 @@ namespace {
 
 constexpr Eigen::Index kWantedVoxels = 15000;
 constexpr Eigen::Index kNumSamples = 1000;
+// Lengths are found on so many points; they hardly depend on more.
+constexpr Eigen::Index kMaxExamined = 500'000;
 constexpr double kWantedSurfaceShare = 2.0 / 3.0;
 constexpr double kGrowth = 1.15;
 constexpr double kMaxGrowth = 16.0;
@@ -60,6 +62,16 @@ RegistrationOptions MakeReference() {
   options.quatro.tim_bound_factor = 2.0;
   options.quatro.gnc.start = GncStart::kPlainFit;
   return options;
+}
+
+// At most kMaxExamined points, evenly over the order of the cloud.
+PointCloud Thinned(const PointCloud& cloud) {
+  const Eigen::Index num = cloud.points.cols();
+  const Eigen::Index step = (num + kMaxExamined - 1) / kMaxExamined;
+  PointCloud thinned;
+  thinned.points = cloud.points(
+      Eigen::all, Eigen::seq(0, num - 1, std::max<Eigen::Index>(1, step)));
+  return thinned;
 }
 
 Eigen::Index CountVoxels(const PointCloud& cloud, double voxel_size) {
@@ -155,6 +167,9 @@ RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target) {
   if (source.points.cols() == 0 || target.points.cols() == 0) {
     return MakeAutoOptions(0.3);
+  }
+  if (std::max(source.points.cols(), target.points.cols()) > kMaxExamined) {
+    return MakeAutoOptions(Thinned(source), Thinned(target));
   }
   const double size =
       std::max(SizeForWantedVoxels(source), SizeForWantedVoxels(target));

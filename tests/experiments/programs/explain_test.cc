@@ -137,6 +137,35 @@ TEST(Explain, OfCloudsTellsTheFrontEndAndWhatSpeaksAgainst) {
   EXPECT_THAT(text, HasSubstr("free space"));
 }
 
+// The candidate described is the first one of the rung that gave the answer.
+TEST(Explain, OfASearchNamesTheRungAndItsBestCandidate) {
+  Json report = Report(MakeMatchedProblem({}, /*seed=*/5));
+  EXPECT_THAT(Explain(report), Not(HasSubstr("search:")));
+  const auto candidate = [](const char* origin, double score, double overlap) {
+    return Json{{"origin", origin},
+                {"score", score},
+                {"overlap", overlap},
+                {"contradicted_share", 0.25},
+                {"log_likelihood_ratio", 30.0}};
+  };
+  report["candidates"] = {candidate("rung 1", 0.51, 0.11),
+                          candidate("rung 1, leveled by walls", 0.42, 0.12),
+                          candidate("rung 2", 2.53, 0.63),
+                          candidate("rung 2", 0.84, 0.14)};
+  report["rung"] = 2;
+  std::string text = Unwrapped(Explain(report));
+  EXPECT_THAT(text, HasSubstr("4 candidates were aligned with the scans"));
+  EXPECT_THAT(text, HasSubstr("the answer is from rung 2"));
+  EXPECT_THAT(text, HasSubstr("2.53"));
+  EXPECT_THAT(text, HasSubstr("the next one 0.84"));
+  EXPECT_THAT(text, Not(HasSubstr("0.51")));
+  report["rung"] = 0;
+  text = Unwrapped(Explain(report));
+  EXPECT_THAT(text, HasSubstr("none is more probable"));
+  EXPECT_THAT(text, HasSubstr("0.51"));
+  EXPECT_THAT(text, HasSubstr("the next one 0.42"));
+}
+
 TEST(Explain, TellsOfAnInsAndOfARefinement) {
   Json report = Report(MakeMatchedProblem({}, /*seed=*/7));
   EXPECT_THAT(Explain(report), Not(HasSubstr("ins:")));

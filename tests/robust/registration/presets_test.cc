@@ -120,6 +120,14 @@ TEST_F(AutoOptionsTest, ScaleWithTheCloud) {
   }
 }
 
+// Of many points, every k-th is enough.
+TEST_F(AutoOptionsTest, ManyPointsGiveTheSizeOfFewer) {
+  const Points many = RandomStreet(900'000, 0.01, /*seed=*/2);
+  const Points fewer = many(Eigen::all, Eigen::seq(0, Eigen::last, 3));
+  EXPECT_NEAR(
+      AutoVoxelSize(many, many) / AutoVoxelSize(fewer, fewer), 1.0, 0.07);
+}
+
 // The lengths of every part, so that nothing but the unit changes.
 TEST_F(AutoOptionsTest, AllLengthsAreInProportion) {
   const RegistrationOptions one = MakeAutoOptions(0.3);
