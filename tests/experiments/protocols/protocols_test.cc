@@ -544,11 +544,12 @@ TEST(ProblemFamiliesTest, ProblemsAreAsTheirBinSays) {
                 std::to_string(std::lround(num_true)) + " of 50 true");
     } else if (task.set == "quasi_inliers") {
       EXPECT_EQ(problem.source.cols(), 500);
-      const auto level = (problem.target -
-                          problem.true_target_from_source.Apply(problem.source))
-                             .topRows<2>()
-                             .colwise()
-                             .norm();
+      const Eigen::VectorXd level =
+          (problem.target -
+           problem.true_target_from_source.Apply(problem.source))
+              .topRows<2>()
+              .colwise()
+              .norm();
       std::sscanf(task.bin.c_str(), "%d", &number);
       const auto num_level = static_cast<double>(
           (level.array() < 1.6 * options.noise_bound).count());
