@@ -360,6 +360,87 @@ class Refinement {
   const Eigen::ArrayXf share_;  // Of yaws, for (2).
 };
 
+// The fullest cells of all yaws that are no neighbors, the fullest first.
+std::vector<Cell> FindFullest(const CenteredMatches& matches,
+                              const Rows& rows,
+                              int num_yaws,
+                              const ConsensusSearchOptions& options) {
+  const float extent = Extent(matches.source) + Extent(matches.target);
+  int num_cells = kMinNumCells;
+  while (num_cells < kMaxNumCells && static_cast<float>(num_cells) < extent) {
+    num_cells *= 2;
+  }
+  const double yaw_step = 2.0 * M_PI / num_yaws;
+  std::vector<std::vector<Cell>> cells_of(
+      static_cast<std::size_t>((num_yaws + kYawsPerPiece - 1) / kYawsPerPiece));
+  ParallelFor(
+      options.num_threads,
+      num_yaws,
+      kYawsPerPiece,
+      [&](Eigen::Index begin, Eigen::Index end) {
+        Ballot ballot(rows, num_cells);
+        for (Eigen::Index k = begin; k < end; ++k) {
+          ballot.Count(
+              static_cast<double>(k) * yaw_step,
+              static_cast<int>(k),
+              &cells_of[static_cast<std::size_t>(begin / kYawsPerPiece)]);
+        }
+      });
+  std::vector<Cell> all;
+  for (const auto& some : cells_of) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::sort(all.begin(), all.end(), IsBefore);
+  return WithoutNeighbors(
+      all,
+      num_yaws,
+      static_cast<std::size_t>(kRefinedPerWanted * options.max_num_proposals));
+}
+
+// The most significant that differ, the best first.
+std::vector<const Refined*> Separate(
+    const std::vector<std::optional<Refined>>& refined,
+    const ConsensusSearchOptions& options) {
+  std::vector<const Refined*> order;
+  for (const auto& one : refined) {
+    if (one) order.push_back(&*one);
+  }
+  std::stable_sort(
+      order.begin(), order.end(), [](const Refined* a, const Refined* b) {
+        return a->ratio > b->ratio;
+      });
+  std::vector<const Refined*> kept;
+  for (const Refined* one : order) {
+    const bool is_new =
+        std::none_of(kept.begin(), kept.end(), [&](const Refined* other) {
+          return std::abs(std::remainder(one->yaw - other->yaw, 2.0 * M_PI)) <=
+                     options.min_yaw_difference &&
+                 (one->translation - other->translation).norm() <=
+                     options.min_shift_in_bounds;
+        });
+    if (is_new) kept.push_back(one);
+    if (static_cast<int>(kept.size()) == options.max_num_proposals) break;
+  }
+  return kept;
+}
+
+// In the units and frames of the input.
+Proposal ProposalFrom(const Refined& refined,
+                      const CenteredMatches& matches,
+                      double noise_bound) {
+  Proposal proposal;
+  const Eigen::Matrix3d rotation = RotationZ(refined.yaw);
+  proposal.target_from_source = {rotation,
+                                 matches.target_middle +
+                                     noise_bound * refined.translation -
+                                     rotation * matches.source_middle};
+  for (const Eigen::Index i : refined.inliers) {
+    proposal.inliers.push_back(matches.columns[static_cast<std::size_t>(i)]);
+  }
+  proposal.log_likelihood_ratio = refined.ratio;
+  return proposal;
+}
+
 }  // namespace
 
 bool ConsensusSearchOptions::IsValid(std::string* error) const {
@@ -390,36 +471,7 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
   const Rows rows(matches);
   const int num_yaws = NumYaws(matches);
   const double yaw_step = 2.0 * M_PI / num_yaws;
-  const float extent = Extent(matches.source) + Extent(matches.target);
-  int num_cells = kMinNumCells;
-  while (num_cells < kMaxNumCells && static_cast<float>(num_cells) < extent) {
-    num_cells *= 2;
-  }
-  std::vector<std::vector<Cell>> cells_of(
-      static_cast<std::size_t>((num_yaws + kYawsPerPiece - 1) / kYawsPerPiece));
-  ParallelFor(
-      options.num_threads,
-      num_yaws,
-      kYawsPerPiece,
-      [&](Eigen::Index begin, Eigen::Index end) {
-        Ballot ballot(rows, num_cells);
-        for (Eigen::Index k = begin; k < end; ++k) {
-          ballot.Count(
-              static_cast<double>(k) * yaw_step,
-              static_cast<int>(k),
-              &cells_of[static_cast<std::size_t>(begin / kYawsPerPiece)]);
-        }
-      });
-  std::vector<Cell> all;
-  for (const auto& some : cells_of) {
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  std::sort(all.begin(), all.end(), IsBefore);
-  const std::vector<Cell> cells = WithoutNeighbors(
-      all,
-      num_yaws,
-      static_cast<std::size_t>(kRefinedPerWanted * options.max_num_proposals));
-
+  const std::vector<Cell> cells = FindFullest(matches, rows, num_yaws, options);
   const Refinement refinement(matches, rows, options);
   std::vector<std::optional<Refined>> refined(cells.size());
   ParallelFor(options.num_threads,
@@ -433,37 +485,8 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
                 }
               });
 
-  std::vector<const Refined*> order;
-  for (const auto& one : refined) {
-    if (one) order.push_back(&*one);
-  }
-  std::stable_sort(
-      order.begin(), order.end(), [](const Refined* a, const Refined* b) {
-        return a->ratio > b->ratio;
-      });
-  std::vector<const Refined*> kept;
-  for (const Refined* one : order) {
-    const bool is_new =
-        std::none_of(kept.begin(), kept.end(), [&](const Refined* other) {
-          return std::abs(std::remainder(one->yaw - other->yaw, 2.0 * M_PI)) <=
-                     options.min_yaw_difference &&
-                 (one->translation - other->translation).norm() <=
-                     options.min_shift_in_bounds;
-        });
-    if (!is_new) continue;
-    kept.push_back(one);
-    Proposal proposal;
-    const Eigen::Matrix3d rotation = RotationZ(one->yaw);
-    proposal.target_from_source = {rotation,
-                                   matches.target_middle +
-                                       options.noise_bound * one->translation -
-                                       rotation * matches.source_middle};
-    for (const Eigen::Index i : one->inliers) {
-      proposal.inliers.push_back(matches.columns[static_cast<std::size_t>(i)]);
-    }
-    proposal.log_likelihood_ratio = one->ratio;
-    proposals.push_back(std::move(proposal));
-    if (static_cast<int>(proposals.size()) == options.max_num_proposals) break;
+  for (const Refined* one : Separate(refined, options)) {
+    proposals.push_back(ProposalFrom(*one, matches, options.noise_bound));
   }
   return proposals;
 }
