@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 #include <quatro/version.h>
+#include <cmath>
 
 #include <optional>
 #include <string>
@@ -112,22 +113,23 @@ Registration RegisterClouds(const py::object& source,
   const PointsArgument target_points(target, "target");
   PointCloud source_cloud;
   PointCloud target_cloud;
-  std::optional<double> voxel_size;
+  double voxel_size = 0.0;
   if (given.contains("voxel_size") &&
       PyNumber_Check(given["voxel_size"].ptr())) {
-    voxel_size = py::float_(given["voxel_size"]);
+    const double value = py::float_(given["voxel_size"]);
+    if (value > 0.0 && std::isfinite(value)) voxel_size = value;
   }
   RegistrationOptions options;
   if (preset != "auto") {
     options = FindPreset(preset, "auto");
-  } else if (voxel_size) {
-    options = MakeAutoOptions(*voxel_size);
+  } else if (voxel_size > 0.0) {
+    options = MakeAutoOptions(voxel_size);
   }
   {
     const py::gil_scoped_release release;
     source_cloud = MakeCloud(source_points);
     target_cloud = MakeCloud(target_points);
-    if (preset == "auto" && !voxel_size) {
+    if (preset == "auto" && voxel_size == 0.0) {
       options = MakeAutoOptions(source_cloud, target_cloud);
     }
   }

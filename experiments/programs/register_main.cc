@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -107,7 +108,7 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
   std::optional<quatro::RegistrationOptions> options;
   if (FLAGS_preset != "auto") {
     options = quatro::MakePreset(FLAGS_preset);
-  } else if (FLAGS_voxel_size > 0.0) {
+  } else if (FLAGS_voxel_size > 0.0 && std::isfinite(FLAGS_voxel_size)) {
     options = quatro::MakeAutoOptions(FLAGS_voxel_size);
   } else {
     options = quatro::MakeAutoOptions(source, target);

@@ -3,6 +3,7 @@
 
 #include "robust/registration/ladder.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -23,6 +24,9 @@ constexpr double kFpfhFactor = 7.0 / 3.0;
 // share of the candidate's. A pose without the tilt between the scans replaces
 // it only if its score is not less.
 constexpr double kMinScoreShare = 0.95;
+
+// A consensus of more than this share of the matches is not one of chance.
+constexpr double kSureShare = 0.2;
 
 // Whether the tilt between the scans was estimated.
 bool HasTilt(const PoseSummary& summary) {
@@ -150,6 +154,7 @@ class Ladder {
   // is from a higher rung, else none.
   MatchedPoints Climb() {
     MatchedPoints answer;
+    if (IsSurelyOutside()) return answer;
     for (int rung = 1;
          rung <= options_.search.max_rung && !summary_.verdict.IsRegistered();
          ++rung) {
@@ -182,6 +187,17 @@ class Ladder {
   }
 
  private:
+  // Whether the matches leave no doubt of a pose outside of the bounds. What
+  // else fits within them would be a coincidence.
+  bool IsSurelyOutside() const {
+    if (!problem_.bounds.IsActive() || summary_.solution.IsUsable()) {
+      return false;
+    }
+    const PoseSummary& outside = summary_.solution;
+    return static_cast<double>(outside.num_translation_inliers) >
+           kSureShare * static_cast<double>(outside.num_matches);
+  }
+
   // Made when it is first needed.
   const PoseSearch& Search() {
     const double voxel_size = options_.front_end.voxel_size;
@@ -235,6 +251,8 @@ class Ladder {
     attempt.candidates = std::move(summary_.candidates);
     attempt.stage_times = std::move(summary_.stage_times);
     attempt.total_seconds = summary_.total_seconds;
+    attempt.matched_source = std::move(summary_.matched_source);
+    attempt.matched_target = std::move(summary_.matched_target);
     summary_ = std::move(attempt);
   }
 

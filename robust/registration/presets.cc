@@ -65,62 +65,64 @@ RegistrationOptions MakeReference() {
 }
 
 // At most kMaxExamined points, evenly over the order of the cloud.
-PointCloud Thinned(const PointCloud& cloud) {
-  const Eigen::Index num = cloud.points.cols();
+Points Thinned(const Points& points) {
+  const Eigen::Index num = points.cols();
   const Eigen::Index step = (num + kMaxExamined - 1) / kMaxExamined;
-  PointCloud thinned;
-  thinned.points = cloud.points(
-      Eigen::all, Eigen::seq(0, num - 1, std::max<Eigen::Index>(1, step)));
-  return thinned;
+  return points(Eigen::all,
+                Eigen::seq(0, num - 1, std::max<Eigen::Index>(1, step)));
 }
 
-Eigen::Index CountVoxels(const PointCloud& cloud, double voxel_size) {
+// The logarithm of the least of 256 sizes in (low, high] at which the points
+// keep at most kWantedVoxels, or `high`. Most points are on surfaces, so that
+// their number falls with the square of the size, which tells where to look.
+double FindSize(const Points& points, double low, double high) {
+  constexpr int kNumSizes = 256;
+  constexpr double kFall = 2.0;
+  const double step = (high - low) / kNumSizes;
   std::string error;
-  const auto voxels = SampleVoxels(cloud.points, voxel_size, &error);
-  return voxels ? voxels->cols() : cloud.points.cols();
+  int too_many = 0;
+  int few_enough = kNumSizes;
+  int next = kNumSizes / 2;
+  while (few_enough - too_many > 1) {
+    const auto voxels =
+        SampleVoxels(points, std::exp(low + next * step), &error);
+    const Eigen::Index num = voxels ? voxels->cols() : points.cols();
+    (num > kWantedVoxels ? too_many : few_enough) = next;
+    const double distance =
+        std::log(static_cast<double>(num) / kWantedVoxels) / (kFall * step);
+    next += static_cast<int>(std::lround(distance));
+    next =
+        std::clamp(next, too_many + 1, std::max(too_many + 1, few_enough - 1));
+  }
+  return low + few_enough * step;
 }
 
-// The size at which the cloud keeps kWantedVoxels, by bisection in the
-// logarithm. A cloud with fewer points than that gives a size far below their
-// spacing.
-double SizeForWantedVoxels(const PointCloud& cloud) {
+// The size at which the cloud keeps kWantedVoxels. A cloud with fewer points
+// than that gives a size far below their spacing.
+double SizeForWantedVoxels(const Points& points) {
   constexpr double kUsualMin = 0.01;  // [m]
   constexpr double kUsualMax = 10.0;  // [m]
   constexpr double kMinShare = 1e-4;  // Share of the extent of a smaller cloud.
-  double low = std::log(kUsualMin);
-  double high = std::log(kUsualMax);
   const double extent =
-      (cloud.points.rowwise().maxCoeff() - cloud.points.rowwise().minCoeff())
-          .maxCoeff();
-  if (kMinShare * extent < kUsualMin && extent > 0.0 &&
-      CountVoxels(cloud, kUsualMin) <= kWantedVoxels) {
-    low = std::log(kMinShare * extent);
-    high = std::log(kUsualMin);
-  }
-  const auto bisect = [&] {
-    for (int i = 0; i < 8; ++i) {
-      const double middle = 0.5 * (low + high);
-      (CountVoxels(cloud, std::exp(middle)) > kWantedVoxels ? low : high) =
-          middle;
-    }
-  };
-  bisect();
+      (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+  double high = FindSize(points, std::log(kUsualMin), std::log(kUsualMax));
   if (std::exp(high) >= kUsualMax && extent > kUsualMax) {
-    low = std::log(kUsualMax);
-    high = std::log(extent);
-    bisect();
+    high = FindSize(points, std::log(kUsualMax), std::log(extent));
+  } else if (std::exp(high) <= 1.03 * kUsualMin &&
+             kMinShare * extent < kUsualMin && extent > 0.0) {
+    high = FindSize(points, std::log(kMinShare * extent), high);
   }
   return std::exp(high);
 }
 
 // Median distance of a point from its nearest neighbour elsewhere [m].
-double TypicalSpacing(const PointCloud& cloud) {
-  const KdTree tree(cloud.points);
-  const Eigen::Index n = cloud.points.cols();
+double TypicalSpacing(const Points& points) {
+  const KdTree tree(points);
+  const Eigen::Index n = points.cols();
   const Eigen::Index step = std::max<Eigen::Index>(1, n / kNumSamples);
   std::vector<double> squared;
   for (Eigen::Index i = 0; i < n; i += step) {
-    const auto nearest = tree.Nearest(cloud.points.col(i), 2);
+    const auto nearest = tree.Nearest(points.col(i), 2);
     if (nearest.size() == 2) squared.push_back(nearest[1].squared_distance);
   }
   if (squared.empty()) return 0.0;
@@ -130,20 +132,25 @@ double TypicalSpacing(const PointCloud& cloud) {
   return std::sqrt(*middle);
 }
 
-double SurfaceShareOfVoxels(const PointCloud& cloud, double voxel_size) {
+// With several points in most voxels, the spacing is below their size.
+double SpacingIfSparse(const Points& points) {
+  return points.cols() > 4 * kWantedVoxels ? 0.0 : TypicalSpacing(points);
+}
+
+double SurfaceShareOfVoxels(const Points& points, double voxel_size) {
   std::string error;
-  const auto voxels = SampleVoxels(cloud.points, voxel_size, &error);
+  const auto voxels = SampleVoxels(points, voxel_size, &error);
   const double radius = InProportionTo(voxel_size).front_end.normal_radius;
   return voxels ? SurfaceShare(KdTree(*voxels), radius) : 1.0;
 }
 
 // `voxel_size` enlarged until normals are those of surfaces; as it is where no
 // size in reach does that.
-double SizeForSurfaces(const PointCloud& cloud, double voxel_size) {
+double SizeForSurfaces(const Points& points, double voxel_size) {
   const double largest = kMaxGrowth * voxel_size;
   double size = voxel_size;
   while (size <= largest) {
-    if (SurfaceShareOfVoxels(cloud, size) >= kWantedSurfaceShare) return size;
+    if (SurfaceShareOfVoxels(points, size) >= kWantedSurfaceShare) return size;
     size *= kGrowth;
   }
   return voxel_size;
@@ -168,17 +175,14 @@ RegistrationOptions MakeAutoOptions(const PointCloud& source,
   if (source.points.cols() == 0 || target.points.cols() == 0) {
     return MakeAutoOptions(0.3);
   }
-  if (std::max(source.points.cols(), target.points.cols()) > kMaxExamined) {
-    return MakeAutoOptions(Thinned(source), Thinned(target));
-  }
-  const double size =
-      std::max(SizeForWantedVoxels(source), SizeForWantedVoxels(target));
-  const double spacing =
-      std::max(TypicalSpacing(source), TypicalSpacing(target));
+  const Points p = Thinned(source.points);
+  const Points q = Thinned(target.points);
+  const double size = std::max(SizeForWantedVoxels(p), SizeForWantedVoxels(q));
+  const double spacing = std::max(SpacingIfSparse(p), SpacingIfSparse(q));
   // Two digits: a size that can be quoted, and that small changes do not move.
   const double dense = std::max(size, spacing);
   const double chosen =
-      std::max(SizeForSurfaces(source, dense), SizeForSurfaces(target, dense));
+      std::max(SizeForSurfaces(p, dense), SizeForSurfaces(q, dense));
   const double unit = std::pow(10.0, std::floor(std::log10(chosen)) - 1.0);
   return MakeAutoOptions(std::round(chosen / unit) * unit);
 }

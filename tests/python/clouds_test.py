@@ -30,14 +30,14 @@ def check_same_estimate(clouds, matches):
 
 @pytest.mark.parametrize('method', problems.MATCH_METHODS + problems.REFINING_METHODS)
 def test_registers_two_scans_of_a_place(method):
-    answer = quatro.register(SOURCE, TARGET, method=method, **problems.needed(method))
+    answer = quatro.register(SOURCE, TARGET, 'kitti', method=method, **problems.needed(method))
     meters, radians = problems.errors(answer.target_from_source, TRUTH)
     assert answer.is_registered and meters < 0.2 and radians < 0.02, answer
     assert answer.method == method
     assert 0 < answer.num_inliers <= len(answer.matched_source) <= answer.num_mutual_matches
     assert answer.num_inliers == problems.num_inliers(
         answer.target_from_source, answer.matched_source, answer.matched_target, 0.3)
-    assert len(answer.unobservable_directions) == (2 if method == 'arc_consensus' else 0)
+    assert len(answer.unobservable_directions) == (2 if method in ('arc_consensus', 'consensus') else 0)
     assert answer.num_source_voxels < len(SOURCE)
     assert repr(answer).startswith('Registration(registered, %s, ' % method)
     # The inliers are rows of what was matched, and are those before a refinement.
@@ -105,9 +105,9 @@ def test_presets_and_sizes_arrive():
     voxels = {preset: quatro.register(FEW_SOURCE, FEW_TARGET, preset).num_source_voxels
               for preset in ('kitti', 'paper', 'indoor', 'auto')}
     assert voxels['kitti'] == voxels['paper'] < voxels['indoor']
-    wide = quatro.register(SOURCE, TARGET, voxel_size=0.5, normal_radius=1.5, fpfh_radius=2.5)
+    wide = quatro.register(SOURCE, TARGET, 'kitti', voxel_size=0.5, normal_radius=1.5, fpfh_radius=2.5)
     assert wide.is_registered
-    assert wide.num_source_voxels < quatro.register(SOURCE, TARGET).num_source_voxels
+    assert wide.num_source_voxels < quatro.register(SOURCE, TARGET, 'kitti').num_source_voxels
     assert voxels['auto'] not in (voxels['kitti'], voxels['indoor'])
     no_tuples = quatro.register(FEW_SOURCE, FEW_TARGET, tuple_test=False)
     assert len(no_tuples.matched_source) == no_tuples.num_mutual_matches
@@ -119,7 +119,7 @@ def test_refinement_is_told():
     assert answer.refinement['moved_translation'] < 0.3
     assert not np.array_equal(answer.refinement['unrefined_target_from_source'],
                               answer.target_from_source)
-    assert quatro.register(FEW_SOURCE, FEW_TARGET).refinement is None
+    assert quatro.register(FEW_SOURCE, FEW_TARGET, 'kitti').refinement is None
 
 
 @pytest.mark.parametrize('source, options, text', [
@@ -135,14 +135,14 @@ def test_refinement_is_told():
 ])
 def test_what_the_library_refuses(source, options, text):
     with pytest.raises(ValueError) as error:
-        quatro.register(source, TARGET, **options)
+        quatro.register(source, TARGET, **{'preset': 'kitti', **options})
     assert str(error.value) == text
 
 
 def test_a_cloud_too_wide_is_refused():
     stray = np.vstack([SOURCE, [[1e7, 0, 0]]])
     with pytest.raises(ValueError, match='^source: the cloud is .* more than 2.21 voxels'):
-        quatro.register(stray, TARGET)
+        quatro.register(stray, TARGET, 'kitti')
 
 
 @pytest.mark.parametrize('method', ['icp', 'gicp', 'vgicp'])

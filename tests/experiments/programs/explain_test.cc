@@ -156,7 +156,7 @@ TEST(Explain, OfASearchNamesTheRungAndItsBestCandidate) {
   std::string text = Unwrapped(Explain(report));
   EXPECT_THAT(text, HasSubstr("4 candidates were aligned with the scans"));
   EXPECT_THAT(text, HasSubstr("the answer is from rung 2"));
-  EXPECT_THAT(text, HasSubstr("2.53"));
+  EXPECT_THAT(text, HasSubstr("a score of 2.5, with 63 % overlap"));
   EXPECT_THAT(text, HasSubstr("the next one 0.84"));
   EXPECT_THAT(text, Not(HasSubstr("0.51")));
   report["rung"] = 0;

@@ -190,6 +190,7 @@ TEST_F(InsProgramTest, RegistersTiltedScansInAnyAxes) {
       "--target=" + write("b.ply",
                           level_from_target,
                           RandomStreet(12000, 0.01, /*seed=*/2)),
+      "--preset=kitti",
       "--polish=off",
       "--gravity=2,0,0"};
   const Eigen::Matrix3d expected = axes * level_from_target.transpose() *

@@ -234,6 +234,7 @@ TEST_F(PairViewTest, MethodsShareMatchesOrHaveNoStages) {
 }
 
 TEST_F(PairViewTest, CandidatesAreTheBestAndComparedWithTheAnswer) {
+  answer_.summary.candidates.clear();
   EXPECT_TRUE(View({})["methods"][0]["candidates"].empty());
   const Rigid3 pose = *answer_.summary.target_from_source();
   for (int k = 0; k < 7; ++k) {

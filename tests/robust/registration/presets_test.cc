@@ -114,8 +114,9 @@ TEST_F(AutoOptionsTest, ScaleWithTheCloud) {
   EXPECT_GT(base, 0.02);
   for (const double scale : {1e-3, 0.5, 3.0, 10.0, 1e3}) {
     const double scaled = AutoVoxelSize(scale * dense_, scale * dense_);
-    // Found to 3 % and rounded to two digits, each of them.
-    EXPECT_NEAR(scaled / (scale * base), 1.0, 0.1)
+    // Found to 3 % and rounded to two digits, each of them, and enlarged in
+    // steps of 15 % for the surfaces.
+    EXPECT_NEAR(scaled / (scale * base), 1.0, 0.2)
         << "scale " << scale << ", voxels " << scaled << " m for " << base;
   }
 }

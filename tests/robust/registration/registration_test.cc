@@ -323,6 +323,7 @@ void ExpectSameNumbers(const RegistrationSummary& in_axes,
 
 TEST_F(RegistrationTest, AnyAxisMayBeUp) {
   options_.quatro.polish = false;
+  options_.search.max_rung = 0;  // VG-ICP's voxels depend on the axes.
   const Rigid3 axes{
       RotationBetween(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()),
       Eigen::Vector3d::Zero()};
