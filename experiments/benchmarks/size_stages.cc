@@ -143,7 +143,8 @@ void SolveClique(benchmark::State& state) {
     const auto gnc = SolveGnc<TruncatedLeastSquares>(rotation, options.gnc);
     const auto exact =
         EstimateExactYaw(rotation.source, rotation.target, weights, bounds);
-    benchmark::DoNotOptimize(exact->cost);
+    double cost = exact->cost;
+    benchmark::DoNotOptimize(cost);
     const double yaw = gnc.estimate->target_from_source;
     const auto translation = EstimateTranslation(
         RotationZ(yaw) * problem.source, problem.target, options.noise_bound);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "features/base/stopwatch.h"
+#include "robust/estimators/consensus.h"
 #include "robust/estimators/consensus_search.h"
 #include "robust/estimators/distinct_matches.h"
 #include "solvers/closed_form/valid_matches.h"
@@ -57,9 +58,13 @@ PoseSummary SolveConsensusPose(const PointsRef& source,
   }
   const Proposal& best = proposals.front();
   summary.num_consistent = static_cast<Eigen::Index>(best.inliers.size());
-  summary.num_translation_inliers = summary.num_consistent;
   summary.consistent = InputColumns(matches, best.inliers);
-  summary.translation_inliers = summary.consistent;
+  const std::vector<Eigen::Index> inliers = FindInliers(matches.source,
+                                                        matches.target,
+                                                        best.target_from_source,
+                                                        options.noise_bound);
+  summary.num_translation_inliers = static_cast<Eigen::Index>(inliers.size());
+  summary.translation_inliers = InputColumns(matches, inliers);
   summary.target_from_source = best.target_from_source;
   summary.model = PoseModel::kYawTranslation;
   summary.termination = PoseTermination::kSolved;

@@ -28,8 +28,9 @@ struct ConsensusPoseOptions {
 };
 
 // Column i of `source` is matched with column i of `target` [m]; z is up. In
-// the summary, `consistent` and `translation_inliers` are the inliers of the
-// pose.
+// the summary, `consistent` are the inliers of the search, whose heights may be
+// off by the tilt, and `translation_inliers` are within the noise bound on each
+// axis.
 PoseSummary SolveConsensusPose(const PointsRef& source,
                                const PointsRef& target,
                                const ConsensusPoseOptions& options);

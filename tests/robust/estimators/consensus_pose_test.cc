@@ -50,7 +50,8 @@ TEST_P(ConsensusPoseSeed, FindsThePoseAmongOutliers) {
     EXPECT_LE(error.head<2>().norm(), options.noise_bound + 1e-4) << i;
   }
   EXPECT_GE(summary.num_consistent, 25);
-  EXPECT_EQ(summary.consistent, summary.translation_inliers);
+  // The noise of the true matches is far below the bound on each axis.
+  EXPECT_GE(summary.num_translation_inliers, 25);
 }
 
 // The order of the matches and copies of them change nothing.
