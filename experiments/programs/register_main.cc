@@ -43,9 +43,9 @@ DEFINE_string(preset,
               "beams)");
 DEFINE_string(method, "quatro", "Method; see --list_methods");
 DEFINE_string(refine,
-              "none",
+              "",
               "Refine the pose by local registration: none, icp, gicp or "
-              "vgicp");
+              "vgicp; empty: the preset's");
 DEFINE_double(voxel_size, 0.0, "Voxel size [m]; 0: the preset's");
 DEFINE_double(normal_radius, 0.0, "Radius of the normals [m]; 0: the preset's");
 DEFINE_double(fpfh_radius,

@@ -54,7 +54,7 @@ struct RayPattern {
 
 // A ray and when it is cast, as a fraction of the frame.
 struct Ray {
-  Eigen::Vector3d direction;  // Of length 1.
+  Eigen::Vector3d direction;  // A unit vector.
   double fraction;
 };
 

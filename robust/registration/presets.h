@@ -38,7 +38,7 @@ std::optional<RegistrationOptions> MakePreset(const std::string& name);
 RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target);
 
-// The same for a given voxel size > 0 [m]. The other lengths are in proportion
+// Options for a given voxel size > 0 [m]. The other lengths are in proportion
 // as in kitti. If nothing is registered, twice and 3.5 times these lengths are
 // tried. The pose is refined by VG-ICP.
 RegistrationOptions MakeAutoOptions(double voxel_size);

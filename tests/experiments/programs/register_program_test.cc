@@ -414,6 +414,16 @@ TEST_F(RegisterProgramTest, LocalMethodsStartFromTheGuess) {
   }
 }
 
+// A flag that is not given changes nothing of the preset.
+TEST_F(RegisterProgramTest, TheRefinementIsThePresetsUnlessGiven) {
+  WriteYard();
+  const json of_auto = json::parse(Register({"--preset=auto"}).out);
+  EXPECT_EQ(of_auto["refinement"]["method"], "vgicp");
+  const json none =
+      json::parse(Register({"--preset=auto", "--refine=none"}).out);
+  EXPECT_TRUE(!none.contains("refinement") || none["refinement"].is_null());
+}
+
 TEST_F(RegisterProgramTest, BoundsDecideWhereThePoseMayBe) {
   WriteYard();
   const std::vector<std::string> around = {
