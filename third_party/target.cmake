@@ -43,4 +43,8 @@ function(quatro_library folder)
   if(ARG_PRECOMPILE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     target_precompile_headers(quatro_${folder} PRIVATE ${ARG_PRECOMPILE})
   endif()
+  # Several sources are compiled as one, so that templates are instantiated once.
+  # Off where single files are edited again and again.
+  set_target_properties(quatro_${folder} PROPERTIES
+      UNITY_BUILD ${QUATRO_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()

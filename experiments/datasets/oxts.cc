@@ -14,6 +14,7 @@
 #include "experiments/base/number_text.h"
 #include "experiments/datasets/kitti_poses.h"
 #include "experiments/datasets/sequence.h"
+#include "features/base/degree.h"
 #include "features/base/file.h"
 
 namespace quatro {
@@ -21,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr std::size_t kNumNumbers = 30;
 constexpr double kMaxAltitude = 1e5;  // [m]
 

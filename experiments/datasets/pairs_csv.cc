@@ -15,13 +15,13 @@
 #include "experiments/base/number_text.h"
 #include "experiments/datasets/csv_table.h"
 #include "features/base/cloud_text.h"
+#include "features/base/degree.h"
 
 namespace quatro {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr const char* kPose[] = {"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 constexpr const char* kIns[] = {
     "source_rpy_deg", "target_rpy_deg", "ins_std_deg"};

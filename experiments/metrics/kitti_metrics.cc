@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "features/base/degree.h"
+
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 // Equation (1).
 Rigid3 RelativeError(const std::vector<Rigid3>& truth,

@@ -20,7 +20,8 @@
 namespace quatro {
 namespace {
 
-constexpr long double kDegree = 3.14159265358979323846264338327950288L / 180.0L;
+constexpr long double kLongDegree =
+    3.14159265358979323846264338327950288L / 180.0L;
 constexpr long double kMillisecond = 1e-3L;
 constexpr char kUnknown[] = "unknown";
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -214,13 +215,13 @@ std::optional<PairError> ReadError(CellReader* cells) {
     return std::nullopt;
   }
   PairError error;
-  error.rotation = cells->NumberThere(0.0, M_PI, kDegree);
-  error.yaw = cells->NumberThere(0.0, M_PI, kDegree);
+  error.rotation = cells->NumberThere(0.0, M_PI, kLongDegree);
+  error.yaw = cells->NumberThere(0.0, M_PI, kLongDegree);
   error.translation = cells->NumberThere(0.0, kInfinity);
   return error;
 }
 
-std::optional<Rigid3> ReadPose(CellReader* cells) {
+std::optional<Rigid3> ReadPoseCells(CellReader* cells) {
   if (cells->AreEmpty(12)) {
     cells->Skip(12);
     return std::nullopt;
@@ -265,10 +266,10 @@ std::string FormatResultCsv(const PairResult& result) {
       result.method,
       result.status,
       result.is_truth_known ? FormatNumber(result.distance, 1.0L) : kUnknown,
-      FormatNumber(result.true_yaw, kDegree),
-      FormatNumber(result.true_tilt, kDegree),
-      error ? FormatNumber(error->rotation, kDegree) : "",
-      error ? FormatNumber(error->yaw, kDegree) : "",
+      FormatNumber(result.true_yaw, kLongDegree),
+      FormatNumber(result.true_tilt, kLongDegree),
+      error ? FormatNumber(error->rotation, kLongDegree) : "",
+      error ? FormatNumber(error->yaw, kLongDegree) : "",
       error ? FormatNumber(error->translation, 1.0L) : "",
       FormatNumber(result.probability, 1.0L),
       std::to_string(result.num_matches),
@@ -307,14 +308,14 @@ std::optional<PairResult> ParseResultCsv(const std::string& line,
   result.status = reader.Status();
   result.is_truth_known = !reader.Takes(kUnknown);
   if (result.is_truth_known) result.distance = reader.Number(0.0, kInfinity);
-  result.true_yaw = reader.Number(-M_PI, M_PI, kDegree);
-  result.true_tilt = reader.Number(0.0, M_PI, kDegree);
+  result.true_yaw = reader.Number(-M_PI, M_PI, kLongDegree);
+  result.true_tilt = reader.Number(0.0, M_PI, kLongDegree);
   result.error = ReadError(&reader);
   result.probability = reader.Number(0.0, 1.0);
   result.num_matches = reader.Count();
   result.num_consistent = reader.Count();
   result.num_inliers = reader.Count();
-  result.target_from_source = ReadPose(&reader);
+  result.target_from_source = ReadPoseCells(&reader);
   if (result.error && !result.target_from_source) {
     reader.Fail("is empty, but the line has an error of the pose");
   }

@@ -11,11 +11,10 @@
 
 #include "experiments/base/number_text.h"
 #include "features/base/cloud_text.h"
+#include "features/base/degree.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 ErrorAverages Average(const std::vector<PairError>& errors,
                       const std::optional<BootstrapOptions>& bootstrap) {

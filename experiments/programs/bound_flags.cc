@@ -13,12 +13,11 @@
 #include <vector>
 
 #include "experiments/base/number_text.h"
+#include "features/base/degree.h"
 #include "features/base/file.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;  // [rad]
 
 // Digits that a text file may lack.
 constexpr double kMaxRotationError = 1e-3;

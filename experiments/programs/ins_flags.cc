@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "features/base/degree.h"
+
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;  // [rad]
 
 struct NamedMode {
   const char* name;

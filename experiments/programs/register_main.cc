@@ -23,6 +23,7 @@
 #include "experiments/report/pair_report.h"
 #include "experiments/report/report_template.h"
 #include "experiments/runner/manifest.h"
+#include "features/io/cloud_format.h"
 #include "features/io/cloud_io.h"
 #include "robust/registration/presets.h"
 #include "robust/registration/registration.h"
@@ -160,6 +161,15 @@ struct Registered {
 std::optional<Registered> ReadAndRegister(std::string* error) {
   const quatro::ReadCloudOptions reading = {FLAGS_point_floats};
   if (!reading.IsValid(error)) return std::nullopt;
+  const auto is_bin = [](const std::string& path) {
+    const auto type = quatro::FindCloudFileType(path);
+    return type && type->format == quatro::CloudFormat::kBin;
+  };
+  if (FLAGS_point_floats != 0 && !is_bin(FLAGS_source) &&
+      !is_bin(FLAGS_target)) {
+    *error = "point_floats: is for .bin alone, and neither cloud is one";
+    return std::nullopt;
+  }
   auto source = quatro::ReadCloud(FLAGS_source, reading, error);
   if (!source) return std::nullopt;
   auto target = quatro::ReadCloud(FLAGS_target, reading, error);

@@ -22,6 +22,7 @@
 #include "experiments/simulator/pair_sets.h"
 #include "experiments/simulator/simulator.h"
 #include "experiments/simulator/worlds.h"
+#include "features/base/degree.h"
 
 DEFINE_string(output, "", "Output folder; its parents are created. Required");
 DEFINE_uint64(seed,
@@ -125,8 +126,6 @@ constexpr char kUsage[] =
     "Exits with 0 if everything was written; 2 if a flag is invalid or a file\n"
     "cannot be written; 3 if a sequence was interrupted. Its folder is then\n"
     "restored.";
-
-constexpr double kDegree = M_PI / 180.0;
 
 constexpr std::string_view kProtocols = "sequence, drive, pairs, calibration";
 

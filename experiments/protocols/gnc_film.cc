@@ -9,14 +9,13 @@
 #include <sstream>
 
 #include "experiments/simulator/synthetic.h"
+#include "features/base/degree.h"
 #include "robust/gnc/gnc.h"
 #include "robust/gnc/quasi_so3.h"
 #include "solvers/closed_form/exact_yaw.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 struct Fit {
   double yaw = 0.0;

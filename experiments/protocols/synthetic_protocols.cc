@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "experiments/simulator/synthetic.h"
+#include "features/base/degree.h"
 #include "features/base/stopwatch.h"
 #include "robust/estimators/arc_consensus.h"
 #include "robust/gnc/gnc.h"
@@ -20,7 +21,6 @@
 namespace quatro {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kYawTolerance = 1.0 * kDegree;
 constexpr double kTranslationTolerance = 0.3;  // [m]
 

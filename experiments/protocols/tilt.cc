@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "features/base/degree.h"
+
 namespace quatro {
 
 std::vector<RelativeTilting> MeasureTilts(const SequenceData& data,
@@ -30,7 +32,6 @@ std::vector<RelativeTilting> MeasureTilts(const SequenceData& data,
 }
 
 std::string FormatTilts(const std::vector<RelativeTilting>& tilts) {
-  constexpr double kDegree = M_PI / 180.0;
   std::string text =
       "set,source,target,distance_m,yaw_deg,rollpitch_deg,roll_deg,"
       "pitch_deg\n";

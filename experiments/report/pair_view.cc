@@ -77,7 +77,7 @@ Indices ChooseMatches(const RegistrationSummary& matched,
   return chosen;
 }
 
-Json Describe(const StageCounts& counts) {
+Json DescribeCounts(const StageCounts& counts) {
   return {{"matches", counts.matches},
           {"consistent", counts.consistent},
           {"weighted", counts.weighted},
@@ -101,7 +101,7 @@ Json DescribeStages(const RegistrationSummary& summary,
   Json stages = {
       {"fate", EncodeBase64(fate_bytes)},
       {"weight", weights.empty() ? Json() : Json(EncodeBase64(weight_bytes))},
-      {"counts", Describe(CountStages(found, {}))},
+      {"counts", DescribeCounts(CountStages(found, {}))},
       {"right", nullptr}};
   if (pair.true_target_from_source) {
     std::vector<bool> is_right(fates.size());
@@ -111,12 +111,12 @@ Json DescribeStages(const RegistrationSummary& summary,
                                             pair.noise_bound)) {
       is_right[static_cast<std::size_t>(i)] = true;
     }
-    stages["right"] = Describe(CountStages(found, is_right));
+    stages["right"] = DescribeCounts(CountStages(found, is_right));
   }
   return stages;
 }
 
-double Rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
+double Thousandths(double value) { return std::round(1000.0 * value) / 1000.0; }
 
 // The best candidates of the search, and how far each is from the answer.
 Json DescribeCandidates(const RegistrationSummary& summary) {
@@ -141,23 +141,23 @@ Json DescribeCandidates(const RegistrationSummary& summary) {
     const Rigid3& pose = candidate->target_from_source;
     Json described = {
         {"origin", candidate->origin},
-        {"score", Rounded(candidate->Score())},
-        {"overlap", Rounded(candidate->geometry.overlap)},
-        {"contradicted", Rounded(candidate->geometry.contradicted_share)},
-        {"likelihood", Rounded(candidate->log_likelihood_ratio)},
+        {"score", Thousandths(candidate->Score())},
+        {"overlap", Thousandths(candidate->geometry.overlap)},
+        {"contradicted", Thousandths(candidate->geometry.contradicted_share)},
+        {"likelihood", Thousandths(candidate->log_likelihood_ratio)},
         {"shift_m", nullptr},
         {"turn_deg", nullptr}};
     if (answer) {
-      described["shift_m"] = Rounded((pose * middle - *answer * middle).norm());
+      described["shift_m"] = Thousandths((pose * middle - *answer * middle).norm());
       described["turn_deg"] =
-          Rounded(180.0 / M_PI * AngleBetween(pose.rotation, answer->rotation));
+          Thousandths(180.0 / M_PI * AngleBetween(pose.rotation, answer->rotation));
     }
     candidates.push_back(std::move(described));
   }
   return candidates;
 }
 
-Json Describe(const MethodAnswer& answer, const Json& stages) {
+Json DescribeAnswer(const MethodAnswer& answer, const Json& stages) {
   const RegistrationSummary& summary = answer.summary;
   Json features = Json::object();
   for (const Feature& feature : summary.verdict.features) {
@@ -245,7 +245,7 @@ std::string FormatPairView(const ViewedPair& pair,
   Json methods = Json::array();
   for (const MethodAnswer& answer : answers) {
     const bool has_stages = matched && HasSameMatches(answer.summary, *matched);
-    methods.push_back(Describe(
+    methods.push_back(DescribeAnswer(
         answer,
         has_stages ? DescribeStages(answer.summary, pair, chosen) : Json()));
   }

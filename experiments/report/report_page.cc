@@ -13,13 +13,12 @@
 
 #include "experiments/report/base64.h"
 #include "experiments/report/report_template.h"
+#include "features/base/degree.h"
 
 namespace quatro {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = M_PI / 180.0;
 
 // In JSON, "<" occurs only in strings, where it can be escaped. An HTML parser
 // then finds neither tags nor comments.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "experiments/simulator/sequence_folder.h"
+#include "features/base/degree.h"
 #include "features/base/file.h"
 #include "features/io/cloud_io.h"
 
@@ -114,10 +115,9 @@ bool KittiWriter::Finish(std::string* error) {
 
 std::string FormatOxts(const InsReading& reading) {
   constexpr double kEarth = 6378137.0;  // Radius [m].
-  constexpr double kDegree = M_PI / 180.0;
-  constexpr double kLatitude = 49.0;  // Latitude of the origin [deg].
-  constexpr double kLongitude = 8.4;  // Longitude of the origin [deg].
-  constexpr double kGravity = 9.81;   // [m/s^2]
+  constexpr double kLatitude = 49.0;    // Latitude of the origin [deg].
+  constexpr double kLongitude = 8.4;    // Longitude of the origin [deg].
+  constexpr double kGravity = 9.81;     // [m/s^2]
   const double scale = std::cos(kLatitude * kDegree);
   const double north = std::log(std::tan((90.0 + kLatitude) * kDegree / 2.0)) +
                        reading.position.y() / (scale * kEarth);

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <utility>
 
+#include "features/base/degree.h"
 #include "features/base/parallel.h"
 #include "features/base/random.h"
 
@@ -122,7 +123,6 @@ PointCloud MakeCloud(std::vector<Echo> echoes) {
 }  // namespace
 
 std::vector<double> Hdl64Elevations() {
-  constexpr double kDegree = M_PI / 180.0;
   std::vector<double> elevations;
   elevations.reserve(64);
   for (int i = 0; i < 32; ++i) {

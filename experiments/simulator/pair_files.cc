@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "experiments/base/outputs.h"
+#include "features/base/degree.h"
 #include "features/base/file.h"
 #include "features/base/parallel.h"
 #include "features/io/cloud_io.h"
@@ -22,8 +23,6 @@ namespace quatro {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDegree = M_PI / 180.0;
 
 constexpr char kSharedColumns[] =
     "world,variant,sensor,seed,apart,source_rpy_deg,target_rpy_deg,ins_std_deg,"

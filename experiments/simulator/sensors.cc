@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "features/base/degree.h"
+
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 std::vector<double> EvenElevations(double top_deg, int num_beams) {
   std::vector<double> elevations;

@@ -17,8 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Rigid3 Turn(double yaw) { return {RotationZ(yaw), Vector3d::Zero()}; }
-
 // Builds the street. Sides are +1 (left) and -1; e = |d| is a distance from the
 // axis. All functions draw from one random generator, so their order affects
 // the street.

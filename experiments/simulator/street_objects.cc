@@ -21,8 +21,6 @@ Rigid3 Shift(double x, double y, double z) {
   return {Eigen::Matrix3d::Identity(), Vector3d(x, y, z)};
 }
 
-Rigid3 Turn(double yaw) { return {RotationZ(yaw), Vector3d::Zero()}; }
-
 float Shade(Random& random, double lower, double upper) {
   return static_cast<float>(Uniform(random, lower, upper));
 }

@@ -13,11 +13,10 @@
 
 #include "experiments/metrics/registration_metrics.h"
 #include "experiments/tables/result_groups.h"
+#include "features/base/degree.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 using RecallFunction = std::vector<double> (*)(const std::vector<PairResult>&,
                                                const std::vector<double>&);

@@ -25,8 +25,8 @@ std::string WrongNumPoints(const PcdHeader& header, std::uint64_t num_held) {
          (num_held < header.num_points ? "; is the file truncated?" : "");
 }
 
-std::optional<CloudColumns> FindColumns(const PcdHeader& header,
-                                        std::string* error) {
+std::optional<CloudColumns> PcdColumns(const PcdHeader& header,
+                                       std::string* error) {
   std::vector<std::string_view> names;
   for (const PcdField& field : header.fields) {
     names.push_back(field.count == 1 ? field.name : "");
@@ -176,7 +176,7 @@ std::optional<std::string> Decompress(const PcdHeader& header,
 std::optional<PointCloud> ParsePcd(std::string_view bytes, std::string* error) {
   const std::optional<PcdHeader> header = TakePcdHeader(&bytes, error);
   if (!header) return std::nullopt;
-  const std::optional<CloudColumns> columns = FindColumns(*header, error);
+  const std::optional<CloudColumns> columns = PcdColumns(*header, error);
   if (!columns) return std::nullopt;
   if (header->num_points == 0) {
     *error = "POINTS: there are none";

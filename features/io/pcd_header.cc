@@ -59,8 +59,8 @@ std::optional<Entries> TakeEntries(std::string_view* bytes,
 }
 
 // PCL takes lower case, too.
-std::optional<ScalarType> ParseType(std::string_view type,
-                                    std::string_view size) {
+std::optional<ScalarType> ParsePcdType(std::string_view type,
+                                       std::string_view size) {
   if (type == "f") type = "F";
   if (type == "i") type = "I";
   if (type == "u") type = "U";
@@ -99,7 +99,7 @@ bool ParseFields(Entries* entries, PcdHeader* header, std::string* error) {
       std::numeric_limits<std::uint32_t>::max();
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string place = "FIELDS " + Quoted(names[i]) + ": ";
-    const std::optional<ScalarType> type = ParseType(types[i], sizes[i]);
+    const std::optional<ScalarType> type = ParsePcdType(types[i], sizes[i]);
     if (!type) {
       *error = place + "there is no TYPE " + Quoted(types[i]) + " of SIZE " +
                Quoted(sizes[i]);

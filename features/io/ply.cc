@@ -85,8 +85,8 @@ bool ReadElement(const PlyElement& element,
   return true;
 }
 
-std::optional<CloudColumns> FindColumns(const PlyElement& vertex,
-                                        std::string* error) {
+std::optional<CloudColumns> PlyColumns(const PlyElement& vertex,
+                                       std::string* error) {
   std::vector<std::string_view> names;
   for (const PlyProperty& property : vertex.properties) {
     names.push_back(property.length_type ? "" : property.name);
@@ -103,7 +103,7 @@ std::optional<PointCloud> ReadCloudFrom(const PlyHeader& header,
   for (const PlyElement& element : header.elements) {
     const bool is_vertex = element.name == "vertex";
     std::optional<CloudColumns> columns;
-    if (is_vertex && !(columns = FindColumns(element, error))) {
+    if (is_vertex && !(columns = PlyColumns(element, error))) {
       return std::nullopt;
     }
     if (element.properties.empty()) continue;  // Its rows have no data.

@@ -10,7 +10,7 @@
 namespace quatro {
 namespace {
 
-std::optional<ScalarType> ParseType(std::string_view name) {
+std::optional<ScalarType> ParsePlyType(std::string_view name) {
   if (name == "char" || name == "int8") return ScalarType::kInt8;
   if (name == "uchar" || name == "uint8") return ScalarType::kUint8;
   if (name == "short" || name == "int16") return ScalarType::kInt16;
@@ -33,13 +33,13 @@ std::optional<PlyProperty> ParseProperty(std::string_view words) {
   std::string_view type_name = TakeWord(&words);
   PlyProperty property = {};
   if (type_name == "list") {
-    property.length_type = ParseType(TakeWord(&words));
+    property.length_type = ParsePlyType(TakeWord(&words));
     if (!property.length_type || IsFloat(*property.length_type)) {
       return std::nullopt;
     }
     type_name = TakeWord(&words);
   }
-  const std::optional<ScalarType> type = ParseType(type_name);
+  const std::optional<ScalarType> type = ParsePlyType(type_name);
   property.name = TakeWord(&words);
   if (!type || property.name.empty() || !TakeWord(&words).empty()) {
     return std::nullopt;

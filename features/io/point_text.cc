@@ -11,6 +11,7 @@
 
 #include "features/base/cloud_text.h"
 #include "features/io/cloud_fields.h"
+#include "features/io/trajectory_rows.h"
 
 namespace quatro {
 namespace {
@@ -146,6 +147,11 @@ class PointTextParser {
       builder.Add(row);
       ++num_points;
     } while (lines_.Take(&line));
+    if (const auto format = poses_.Format(); !format.empty()) {
+      error_ = "is a trajectory (format " + std::string(format) +
+               "), not points; give the file of a scan";
+      return std::nullopt;
+    }
     if (num_promised_ && *num_promised_ != num_points) {
       error_ = "line 1 says " + std::to_string(*num_promised_) +
                " points, but there are " + std::to_string(num_points) +
@@ -233,6 +239,7 @@ class PointTextParser {
                       "; name the columns x, y and z, or remove the line");
     }
     columns_ = *named;
+    has_header_ = true;
     return true;
   }
 
@@ -257,6 +264,12 @@ class PointTextParser {
       if (!number) return Fail(line, Quoted(field) + " is not a number");
       (*row)[k] = *number;
     }
+    if (has_header_ || !poses_.MayBeTrajectory()) return true;
+    std::vector<double> numbers;
+    for (const std::string_view field : fields_) {
+      numbers.push_back(ParseNumber(field).value_or(0));
+    }
+    poses_.Add(numbers);
     return true;
   }
 
@@ -267,6 +280,8 @@ class PointTextParser {
   char separator_ = kBlank;
   std::size_t num_columns_ = 0;
   CloudColumns columns_;
+  bool has_header_ = false;
+  TrajectoryRows poses_;
   std::optional<std::uint64_t> num_promised_;
   std::vector<std::string_view> fields_;
 };

@@ -24,7 +24,7 @@
 namespace quatro {
 namespace {
 
-constexpr int kNumNeeded = 3;
+constexpr int kFgrNeeds = 3;
 
 // Matches that one thread sums at a time. The sums are added in order.
 constexpr Eigen::Index kPiece = 4096;
@@ -225,7 +225,7 @@ FgrSummary SolveFgr(const PointsRef& source,
                     const PointsRef& target,
                     const FgrOptions& options) {
   FgrSummary summary;
-  summary.num_needed = kNumNeeded;
+  summary.num_needed = kFgrNeeds;
   if (!options.IsValid(&summary.message) ||
       !AreValidMatches(source, target, &summary.message)) {
     return summary;
@@ -236,7 +236,7 @@ FgrSummary SolveFgr(const PointsRef& source,
       FindDistinctMatches(source, target, options.noise_bound);
   summary.num_matches = matches.source.cols();
   summary.termination = PoseTermination::kInsufficient;
-  if (summary.num_matches < kNumNeeded) {
+  if (summary.num_matches < kFgrNeeds) {
     std::ostringstream message;
     message << "a pose needs three matches; there are " << summary.num_matches;
     summary.message = message.str();
@@ -254,7 +254,7 @@ FgrSummary SolveFgr(const PointsRef& source,
   summary.num_rotation_inliers = summary.num_consistent;
   summary.consistent = InputColumns(matches, inliers);
   summary.stage_times.push_back({"fgr", stopwatch.Lap()});
-  if (summary.num_consistent < kNumNeeded) {
+  if (summary.num_consistent < kFgrNeeds) {
     std::ostringstream message;
     message << "a pose needs three inliers; the final pose has "
             << summary.num_consistent << " among " << summary.num_matches

@@ -20,7 +20,7 @@
 namespace quatro {
 namespace {
 
-constexpr int kNumNeeded = 2;
+constexpr int kQuatroNeeds = 2;
 
 PruningOptions PruningFrom(const QuatroOptions& options) {
   PruningOptions pruning;
@@ -174,7 +174,7 @@ QuatroSummary SolveQuatro(const PointsRef& source,
                           const PointsRef& target,
                           const QuatroOptions& options) {
   QuatroSummary summary;
-  summary.num_needed = kNumNeeded;
+  summary.num_needed = kQuatroNeeds;
   if (!options.IsValid(&summary.message) ||
       !AreValidMatches(source, target, &summary.message)) {
     return summary;

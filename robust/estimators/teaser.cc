@@ -19,7 +19,7 @@
 namespace quatro {
 namespace {
 
-constexpr int kNumNeeded = 3;
+constexpr int kTeaserNeeds = 3;
 
 // The ratio of lengths that most differences agree on: each of length |a| holds
 // it to within 2 noise bounds over |a|. Without what is far from the rest,
@@ -77,7 +77,7 @@ TeaserSummary SolveTeaser(const PointsRef& source,
                           const PointsRef& target,
                           const TeaserOptions& options) {
   TeaserSummary summary;
-  summary.num_needed = kNumNeeded;
+  summary.num_needed = kTeaserNeeds;
   if (!options.IsValid(&summary.message) ||
       !AreValidMatches(source, target, &summary.message)) {
     return summary;
@@ -105,7 +105,7 @@ TeaserSummary SolveTeaser(const PointsRef& source,
   pruning.consistency.bound = 2.0 * options.noise_bound;
   ConsistentSet set =
       PruneMatches(matches, pruning, options.num_threads, &summary);
-  if (summary.num_consistent < kNumNeeded) {
+  if (summary.num_consistent < kTeaserNeeds) {
     EndInsufficient("a rotation needs three consistent matches", &summary);
     return summary;
   }

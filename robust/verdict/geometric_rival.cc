@@ -11,13 +11,13 @@
 #include <sstream>
 #include <vector>
 
+#include "features/base/degree.h"
 #include "features/base/parallel.h"
 #include "robust/verdict/structure_grid.h"
 
 namespace quatro {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kMinTurn = 10.0 * kDegree;
 constexpr double kMaxShift = 400.0;  // [voxel sizes]
 

@@ -16,7 +16,7 @@ namespace {
 
 // The ratio of the least to the largest eigenvalue of the rotation's curvature
 // below which an axis is unobservable.
-constexpr double kMinConditioning = 1e-12;
+constexpr double kMinCurvatureRatio = 1e-12;
 
 struct VerticalResidual {
   using CostFunction =
@@ -78,7 +78,8 @@ std::optional<InsRefinement> RefineWithIns(
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
             RotationCurvature(centered, noise_sigma, prior))
             .eigenvalues();
-    if (!(curvature[0] > kMinConditioning * curvature[2])) return std::nullopt;
+    if (!(curvature[0] > kMinCurvatureRatio * curvature[2]))
+      return std::nullopt;
   }
 
   Eigen::Quaterniond rotation(initial_target_from_source.rotation);

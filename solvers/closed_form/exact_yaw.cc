@@ -29,13 +29,13 @@ struct Arc {
   double weight = 0.0;
 };
 
-struct End {
+struct ArcEnd {
   double at = 0.0;
   bool leaves = false;
   std::int32_t arc = 0;
 
   // Arcs are closed, so an arc enters before another leaves at the same angle.
-  friend bool operator<(const End& x, const End& y) {
+  friend bool operator<(const ArcEnd& x, const ArcEnd& y) {
     return std::tie(x.at, x.leaves, x.arc) < std::tie(y.at, y.leaves, y.arc);
   }
 };
@@ -133,7 +133,7 @@ Eigen::ArrayXd SquaredResiduals(const PointsRef& source,
 // The arcs, their ends in order, and where the sweep starts, at -pi.
 struct Circle {
   std::vector<Arc> arcs;
-  std::vector<End> ends;
+  std::vector<ArcEnd> ends;
   std::vector<std::int32_t> first_set;  // The arcs that contain -pi.
   double outlier_weight = 0.0;          // Weight of the arcs outside the set.
 };
@@ -200,7 +200,7 @@ double SweepYaws(const Circle& circle, double total_weight) {
     }
   };
   consider();
-  for (const End& end : circle.ends) {
+  for (const ArcEnd& end : circle.ends) {
     const Arc& arc = circle.arcs[static_cast<std::size_t>(end.arc)];
     sinusoid.MoveReference(end.at);
     if (end.leaves) {

@@ -14,7 +14,7 @@ namespace quatro {
 namespace {
 
 // The value at which a measurement enters or leaves the consensus set.
-struct End {
+struct IntervalEnd {
   double at = 0.0;
   bool leaves = false;
   double value = 0.0;
@@ -23,7 +23,7 @@ struct End {
   // Intervals are closed, so a measurement enters before another leaves at the
   // same value. The other keys make sums independent of the order of
   // measurements.
-  friend bool operator<(const End& a, const End& b) {
+  friend bool operator<(const IntervalEnd& a, const IntervalEnd& b) {
     return std::tie(a.at, a.leaves, a.value, a.inverse_bound2) <
            std::tie(b.at, b.leaves, b.value, b.inverse_bound2);
   }
@@ -38,7 +38,7 @@ std::optional<ConsensusEstimate> EstimateConsensus(
   const Eigen::Index n = values.size();
   if (n == 0) return std::nullopt;
 
-  std::vector<End> ends;
+  std::vector<IntervalEnd> ends;
   ends.reserve(static_cast<std::size_t>(2 * n));
   for (Eigen::Index i = 0; i < n; ++i) {
     const double inverse_bound2 = 1.0 / (bounds[i] * bounds[i]);
@@ -57,7 +57,7 @@ std::optional<ConsensusEstimate> EstimateConsensus(
   Eigen::Index count = 0;
   double best_cost = std::numeric_limits<double>::infinity();
   double best_value = 0.0;
-  for (const End& end : ends) {
+  for (const IntervalEnd& end : ends) {
     const double step = end.at - at;
     at = end.at;
     if (count == 0) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "features/normals.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,8 +17,6 @@ namespace quatro {
 namespace {
 
 constexpr double kRadius = 0.8;  // [m]
-constexpr double kDegree = M_PI / 180.0;
-
 Points Normals(const Points& points,
                double radius,
                const Eigen::Vector3d& viewpoint) {

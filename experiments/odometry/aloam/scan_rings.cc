@@ -9,12 +9,13 @@
 #include <numeric>
 #include <utility>
 
+#include "features/base/degree.h"
+
 namespace quatro {
 namespace {
 
 using Ring = std::vector<Eigen::Index>;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr int kMinNumRings = 4;
 constexpr int kMaxNumRings = 256;
 

@@ -19,6 +19,7 @@
 #include "experiments/datasets/sequence.h"
 #include "experiments/metrics/kitti_metrics.h"
 #include "experiments/simulator/kitti_layout.h"
+#include "features/base/degree.h"
 #include "features/io/cloud_io.h"
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
@@ -32,7 +33,6 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr char kIdentity[] = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 // z ahead, x to the right, y down, one meter above the sensor.
 constexpr char kCalibration[] =

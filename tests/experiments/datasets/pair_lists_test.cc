@@ -18,6 +18,7 @@
 #include "experiments/datasets/kitti_pair_list.h"
 #include "experiments/datasets/pairs_csv.h"
 #include "experiments/simulator/pair_files.h"
+#include "features/base/degree.h"
 #include "tests/support/run_program.h"
 
 namespace quatro {
@@ -28,8 +29,6 @@ namespace fs = std::filesystem;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 class PairListTest : public ProgramTest {
  protected:

@@ -15,12 +15,11 @@
 #include <vector>
 
 #include "experiments/datasets/kitti_poses.h"
+#include "features/base/degree.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 // One meter per frame along x.
 std::vector<Rigid3> Line(int num_poses, double metres_per_frame) {

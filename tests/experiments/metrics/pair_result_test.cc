@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "experiments/base/csv_line.h"
+#include "features/base/degree.h"
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
@@ -22,8 +23,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-constexpr double kDegree = M_PI / 180.0;
 
 Rigid3 RandomPose(std::uint64_t seed) {
   return {RandomRotation(seed), 20.0 * RandomDirection(seed + 1000)};

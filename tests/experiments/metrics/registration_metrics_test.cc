@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "experiments/metrics/registration_metrics.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,8 +17,6 @@ namespace quatro {
 namespace {
 
 using ::testing::ElementsAre;
-
-constexpr double kDegree = M_PI / 180.0;
 
 RegistrationMetrics Metrics(const std::vector<PairResult>& results) {
   return ComputeMetrics(results, UsualLimits());

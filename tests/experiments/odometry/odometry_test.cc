@@ -23,6 +23,7 @@
 #include "experiments/simulator/lidar.h"
 #include "experiments/simulator/road.h"
 #include "experiments/simulator/street.h"
+#include "features/base/degree.h"
 #include "features/io/cloud_io.h"
 #include "robust/registration/presets.h"
 #include "tests/support/random_problems.h"
@@ -31,8 +32,6 @@ namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 struct Drive {
   std::vector<PointCloud> scans;

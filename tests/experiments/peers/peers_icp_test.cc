@@ -27,12 +27,11 @@
 #endif
 #ifdef QUATRO_WITH_PCL
 #include "experiments/peers/pcl_icp.h"
+#include "features/base/degree.h"
 #endif
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 struct Peer {
   const char* name;

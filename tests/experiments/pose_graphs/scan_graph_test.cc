@@ -22,14 +22,13 @@
 
 #include "experiments/pose_graphs/g2o.h"
 #include "experiments/pose_graphs/pose_graph_problem.h"
+#include "features/base/degree.h"
 #include "features/io/cloud_io.h"
 #include "robust/registration/presets.h"
 #include "tests/support/run_program.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 // The first six and the last are one place, 88 and 95 are another one 60 m
 // away, and 850 is far from both. Scans of different places have no correct

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "experiments/programs/bound_flags.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,8 +17,6 @@ namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 class BoundFlagsTest : public ProgramTest {
  protected:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/programs/matches_csv.h"
+#include "features/base/degree.h"
 #include "features/base/rigid3.h"
 #include "features/io/cloud_io.h"
 #include "features/io/point_cloud.h"
@@ -23,8 +24,6 @@ namespace quatro {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegree = M_PI / 180.0;
 
 Eigen::Matrix3d RotationOf(const json& report) {
   Eigen::Matrix3d rotation;

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "features/base/degree.h"
 #include "features/base/rigid3.h"
 #include "features/io/cloud_io.h"
 #include "robust/estimators/quatro.h"
@@ -26,8 +27,6 @@
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 // The success criteria of the registration benchmarks on KITTI.
 constexpr double kMaxTranslationError = 0.6;         // [m]

@@ -19,6 +19,7 @@
 #include "experiments/protocols/loop_pairs.h"
 #include "experiments/protocols/problem_families.h"
 #include "experiments/protocols/tilt.h"
+#include "features/base/degree.h"
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
@@ -29,8 +30,6 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-constexpr double kDegree = M_PI / 180.0;
 
 std::string ScanOf(int frame) { return std::to_string(frame) + ".bin"; }
 

@@ -20,6 +20,7 @@
 #include "experiments/simulator/city.h"
 #include "experiments/simulator/kitti_layout.h"
 #include "experiments/simulator/lidar.h"
+#include "features/base/degree.h"
 #include "features/base/file.h"
 #include "features/kd_tree.h"
 
@@ -29,8 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using ::testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 DriveOptions Named(const std::string& name) {
   DriveOptions options;

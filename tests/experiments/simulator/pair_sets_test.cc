@@ -16,6 +16,7 @@
 
 #include "experiments/simulator/lidar.h"
 #include "experiments/simulator/pair_files.h"
+#include "features/base/degree.h"
 #include "features/base/file.h"
 #include "features/kd_tree.h"
 
@@ -76,7 +77,6 @@ TEST(SimulateSetPairTest, TruePoseFitsAndOthersDoNot) {
 
 // Otherwise most pairs would not overlap.
 TEST(SimulateSetPairTest, TheYawOfANarrowViewIsAtMostHalfOfIt) {
-  constexpr double kDegree = M_PI / 180.0;
   double largest = 0.0;
   for (const int index : {0, 1, 2, 3, 4, 5}) {
     const SetPair pair = Simulate(SetOf(WorldKind::kRoom), index);

@@ -19,6 +19,7 @@
 
 #include "experiments/simulator/lidar.h"
 #include "experiments/simulator/scene.h"
+#include "features/base/degree.h"
 #include "features/base/rigid3.h"
 #include "features/io/cloud_io.h"
 #include "features/kd_tree.h"
@@ -32,8 +33,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using ::testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 SimulatedPair MakePair(const SimulatePairOptions& options) {
   std::string error;

@@ -18,6 +18,7 @@
 #include "experiments/simulator/lidar.h"
 #include "experiments/simulator/road.h"
 #include "experiments/simulator/sensors.h"
+#include "features/base/degree.h"
 #include "features/base/rigid3.h"
 #include "features/kd_tree.h"
 
@@ -25,8 +26,6 @@ namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 LidarOptions Exact(const std::string& sensor) {
   std::string error;

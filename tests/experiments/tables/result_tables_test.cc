@@ -19,6 +19,7 @@
 #include "experiments/tables/success_table.h"
 #include "experiments/tables/summary_table.h"
 #include "experiments/tables/timing_table.h"
+#include "features/base/degree.h"
 #include "tests/support/pair_results.h"
 
 namespace quatro {
@@ -220,7 +221,6 @@ TEST(RecallTable, GrowsToTheShareOfAnswers) {
 }
 
 TEST(TiltTable, CountsEachPairOnce) {
-  constexpr double kDegree = M_PI / 180.0;
   auto results = Results();
   for (PairResult& result : results) {
     result.true_tilt = 0.6 * kDegree;

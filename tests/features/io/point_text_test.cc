@@ -139,5 +139,22 @@ TEST(ParsePointText, NamesTheLineAndTheReason) {
   }
 }
 
+TEST(ParsePointText, TrajectoriesAreRefused) {
+  const std::string tum = "1.5 7 8 9 0 0 0.6 0.8\n1.6 7 8 9 0 0 0 1\n";
+  EXPECT_EQ(ErrorOf(tum),
+            "is a trajectory (format TUM), not points; give the file of a "
+            "scan");
+  const std::string kitti =
+      "1 0 0 7 0 1 0 8 0 0 1 9\n0 -1 0 7 1 0 0 8 0 0 1 9\n";
+  EXPECT_EQ(ErrorOf(kitti),
+            "is a trajectory (format KITTI), not points; give the file of a "
+            "scan");
+  // Times that do not increase, a norm of 1.1, a reflection, a name.
+  EXPECT_EQ(Read(Replaced(tum, "1.6 ", "1.5 ")).points.cols(), 2);
+  EXPECT_EQ(Read(Replaced(tum, "0.6 0.8", "0.6 0.9")).points.cols(), 2);
+  EXPECT_EQ(Read(Replaced(kitti, "0 0 1 9", "0 0 -1 9")).points.cols(), 2);
+  EXPECT_EQ(Read("x y z a b c d e\n" + tum).points.cols(), 2);
+}
+
 }  // namespace
 }  // namespace quatro

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/estimators/polish.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +23,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kNoiseBound = 0.3;  // [m]
 
 // A problem whose true pose is tilted by `tilt` [rad] about a horizontal axis.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/estimators/pose_bounds.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kNoiseBound = 0.3;  // [m]
 
 PoseBounds RandomBounds(std::uint64_t seed) {

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "experiments/simulator/synthetic.h"
+#include "features/base/degree.h"
 #include "robust/estimators/quatro.h"
 #include "robust/estimators/teaser.h"
 #include "tests/support/matchers.h"
@@ -19,8 +20,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kDegree = M_PI / 180.0;
 
 QuatroSummary Solve(const MatchedProblem& problem,
                     const QuatroOptions& options) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/estimators/teaser.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +22,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TeaserSummary Solve(const KnownProblem& problem,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/registration/ins.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,8 +29,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
-
-constexpr double kDegree = M_PI / 180.0;
 
 QuatroOptions WithoutPolish() {
   QuatroOptions options;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/verdict/match_rival.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,8 +22,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double kBound = 0.3;  // [m]
-constexpr double kDegree = M_PI / 180.0;
-
 std::optional<MatchRival> Find(const KnownProblem& problem,
                                const MatchRivalOptions& options = {}) {
   return FindMatchRival(problem.source,

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "features/base/degree.h"
 #include "features/io/cloud_io.h"
 #include "features/voxel_grid.h"
 #include "solvers/local/gicp.h"
@@ -27,7 +28,6 @@
 namespace quatro {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kVoxelSize = 0.3;  // [m]
 constexpr int kNumRuns = 3;         // The best of them is timed.
 

@@ -3,6 +3,7 @@
 // Tests that ICP, G-ICP and VG-ICP share.
 
 #include "solvers/local/local_alignment.h"
+#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,8 +26,6 @@ namespace quatro {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 enum class Method { kIcp, kGicp, kVgicp };
 

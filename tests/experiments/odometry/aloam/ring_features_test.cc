@@ -15,11 +15,10 @@
 #include <vector>
 
 #include "experiments/odometry/aloam/scan_rings.h"
+#include "features/base/degree.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 // A level ring over azimuths -60 ... 60 deg in steps of 0.2 deg, with the range
 // range(azimuth); no point if it is not finite.

@@ -13,13 +13,12 @@
 
 #include "experiments/simulator/lidar.h"
 #include "experiments/simulator/simulator.h"
+#include "features/base/degree.h"
 #include "features/io/cloud_io.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 std::vector<double> EvenElevations(int n, double top_deg, double bottom_deg) {
   std::vector<double> elevations;
