@@ -14,7 +14,7 @@ namespace {
 
 // With at most this many cells per axis, rounding cannot break (1) if cells are
 // wider than the radius by one part in a million.
-constexpr double kMaxCells = 1 << 20;
+constexpr double kMaxNumCells = 1 << 20;
 constexpr double kWider = 1.0 + 1e-6;
 
 }  // namespace
@@ -29,7 +29,7 @@ std::optional<Cells> Cells::Make(const Points& points, double radius) {
   result.width_ = radius * kWider;
   // There are no cells if the extent overflows, or if extent and radius are
   // zero.
-  if (!(extent < kMaxCells * result.width_ && std::isfinite(extent))) {
+  if (!(extent < kMaxNumCells * result.width_ && std::isfinite(extent))) {
     return std::nullopt;
   }
   // Cells are numbered from 1, so that there is a cell below the first and one

@@ -294,6 +294,11 @@ void BindSearch(py::class_<Registration>* registration) {
           "float: the lengths of the front end and the noise bound are those "
           "of the options times this.")
       .def_property_readonly(
+          "leveled_by",
+          [](const Registration& r) { return r.summary.leveled_by; },
+          "str: what the vertical came from: 'given', or the scans' own "
+          "'matches' or 'normals'.")
+      .def_property_readonly(
           "candidates",
           [](const Registration& r) { return CandidatesOf(r.summary); },
           "list of dict: poses that the search found, the best of each rung "

@@ -16,7 +16,7 @@ quatro_configure() {
   if [[ ! -e $2/CMakeCache.txt ]] && command -v ninja >/dev/null; then
     generator=(-G Ninja)
   fi
-  cmake --preset "$1" "${generator[@]}" "${@:3}"
+  cmake --preset "$1" "${generator[@]}" -DQUATRO_UNITY=ON "${@:3}"
 }
 
 # One job per core, limited to one per 2 GB of memory.

@@ -43,8 +43,16 @@ function(quatro_library folder)
   if(ARG_PRECOMPILE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     target_precompile_headers(quatro_${folder} PRIVATE ${ARG_PRECOMPILE})
   endif()
-  # Several sources are compiled as one, so that templates are instantiated once.
-  # Off where single files are edited again and again.
-  set_target_properties(quatro_${folder} PROPERTIES
-      UNITY_BUILD ${QUATRO_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  # The sources of a room are compiled as one, so that headers and templates are
+  # compiled once. Off where single files are edited again and again.
+  if(QUATRO_UNITY)
+    set_target_properties(quatro_${folder} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    foreach(source IN LISTS ARG_SOURCES)
+      get_filename_component(room "${source}" DIRECTORY)
+      set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "room_${room}")
+    endforeach()
+    # The sources are then included, and GCC takes them for headers.
+    target_compile_options(quatro_${folder} PRIVATE
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
 endfunction()

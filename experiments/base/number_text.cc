@@ -24,12 +24,6 @@ std::vector<std::string_view> SplitFields(std::string_view line,
   }
 }
 
-std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 std::optional<double> ParseFiniteNumber(std::string_view field) {
   const std::optional<double> value = ParseNumber(field);
   return value && std::isfinite(*value) ? value : std::nullopt;

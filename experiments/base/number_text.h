@@ -20,9 +20,6 @@ std::vector<std::string_view> SplitFields(std::string_view line,
 // The separators of numbers in lines of text.
 inline constexpr std::string_view kBlanks = " \t\v\f";
 
-// Without blanks at both ends.
-std::string_view Trim(std::string_view text);
-
 // ParseNumber() of features/base/cloud_text.h, where it is finite.
 std::optional<double> ParseFiniteNumber(std::string_view field);
 

@@ -9,6 +9,7 @@
 
 #include "experiments/base/csv_line.h"
 #include "experiments/base/number_text.h"
+#include "features/base/cloud_text.h"
 #include "features/base/file.h"
 
 namespace quatro {

@@ -16,7 +16,7 @@ namespace {
 
 using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
-constexpr double kMaxDeviation = 1e-3;
+constexpr double kMaxEntryDeviation = 1e-3;
 
 // The 12 numbers from `first` on, or an empty optional with a reason.
 std::optional<Rigid3> ParseRows(const std::vector<std::string_view>& fields,
@@ -50,7 +50,7 @@ std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix) {
       block, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
   if (!matrix.allFinite() || rotation.determinant() < 0.0 ||
-      !((block - rotation).cwiseAbs().maxCoeff() <= kMaxDeviation)) {
+      !((block - rotation).cwiseAbs().maxCoeff() <= kMaxEntryDeviation)) {
     return std::nullopt;
   }
   return Rigid3{rotation, matrix.col(3)};

@@ -23,14 +23,9 @@ constexpr double kMinWrong = 0.4;      // [m], from the true position.
 constexpr double kLoopRange = 1.5;     // [m]
 constexpr std::size_t kMinApart = 20;  // Steps between the ends of a loop.
 
-double Normal(Random* random) {
-  const double radius = std::sqrt(-2.0 * std::log1p(-random->Uniform()));
-  return radius * std::cos(2.0 * M_PI * random->Uniform());
-}
-
 Eigen::Vector3d NormalVector(Random* random) {
   Eigen::Vector3d v;
-  for (int i = 0; i < 3; ++i) v[i] = Normal(random);
+  for (int i = 0; i < 3; ++i) v[i] = random->Normal();
   return v;
 }
 

@@ -102,11 +102,16 @@ std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
     return std::nullopt;
   }
   ins.attitude_std = flags.std_deg * kDegree;
+  if (flags.gravity.empty()) return ins;
+  if (flags.gravity == "scans" || flags.gravity == "none") {
+    ins.gravity = flags.gravity == "none" ? Gravity::kNone : Gravity::kScans;
+    return ins;
+  }
   const auto up = ParseThree(flags.gravity);
   const double length = up ? up->norm() : 0.0;
   if (!(length > 0.0 && std::isfinite(length))) {
     *error = "--gravity=" + flags.gravity +
-             ", must be three numbers, not all zero: x,y,z";
+             ", must be scans, none or three numbers, not all zero: x,y,z";
     return std::nullopt;
   }
   ins.up = *up / length;

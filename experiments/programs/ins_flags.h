@@ -19,7 +19,9 @@ struct InsFlags {
   std::string source_rpy_deg;  // "roll,pitch,yaw"
   std::string target_rpy_deg;
   double std_deg = 0.5;
-  std::string gravity = "0,0,1";  // The up direction; nonzero.
+  // The up direction, nonzero; scans or none (robust/registration/ins.h);
+  // empty: z.
+  std::string gravity;
 };
 
 // Returns "none", "relative", "leveled" or "fused".

@@ -53,7 +53,7 @@ bool RunPython(const std::vector<std::string>& args, std::string* error) {
   return false;
 }
 
-nlohmann::json Rows(const PointsRef& points) {
+nlohmann::json PointRows(const PointsRef& points) {
   nlohmann::json rows = nlohmann::json::array();
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     rows.push_back({static_cast<float>(points(0, i)),
@@ -66,7 +66,7 @@ nlohmann::json Rows(const PointsRef& points) {
 nlohmann::json Thinned(const Points& points) {
   std::string ignored;
   const auto voxels = SampleVoxels(points, kDrawnVoxel, &ignored);
-  return Rows(voxels ? *voxels : points);
+  return PointRows(voxels ? *voxels : points);
 }
 
 }  // namespace
@@ -91,14 +91,14 @@ std::optional<std::string> DrawRegistration(const RegistrationPicture& picture,
   data["origin"] = {origin.x(), origin.y(), origin.z()};
   data["source"] = Thinned(picture.source.colwise() - origin);
   data["target"] = Thinned(picture.target.colwise() - origin);
-  data["matched_source"] = Rows(picture.matched_source.colwise() - origin);
-  data["matched_target"] = Rows(picture.matched_target.colwise() - origin);
+  data["matched_source"] = PointRows(picture.matched_source.colwise() - origin);
+  data["matched_target"] = PointRows(picture.matched_target.colwise() - origin);
   data["inliers"] = picture.inliers;
   if (picture.target_from_source) {
     const Rigid3& motion = *picture.target_from_source;
     data["aligned"] = Thinned(motion.Apply(picture.source).colwise() - origin);
     data["matched_aligned"] =
-        Rows(motion.Apply(picture.matched_source).colwise() - origin);
+        PointRows(motion.Apply(picture.matched_source).colwise() - origin);
   }
 
   std::string folder = (fs::temp_directory_path() / "quatro.XXXXXX").string();

@@ -211,6 +211,7 @@ quatro::Json MakeReportOf(const Registered& registered) {
     report["counts"]["mutual_matches"] = summary.num_mutual_matches;
     report["rung"] = summary.rung;
     report["scale_factor"] = summary.scale_factor;
+    report["leveled_by"] = summary.leveled_by;
     report["candidates"] = quatro::DescribeCandidates(summary.candidates);
   }
   report["surface_observability"] =

@@ -40,7 +40,11 @@ DEFINE_string(target_rpy_deg,
 DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
-DEFINE_string(gravity, "0,0,1", "Up direction of a level cloud: x,y,z");
+DEFINE_string(gravity,
+              "",
+              "Which way is up: x,y,z; scans: z, and if that pose is not "
+              "registered, what the scans say; none: what the scans say; "
+              "empty: scans for preset auto, else 0,0,1");
 DEFINE_string(guess,
               "",
               "A prior on target_from_source: x,y,z,yaw_deg, or a text file of "
@@ -128,7 +132,7 @@ bool CanStartFromGuess(const std::string& method,
                        std::string* error) {
   const char* unused = nullptr;
   if (!refine.empty() && refine != "none") unused = "refine";
-  if (options.ins.up != Eigen::Vector3d::UnitZ()) unused = "gravity";
+  if (!FLAGS_gravity.empty() && FLAGS_gravity != "0,0,1") unused = "gravity";
   if (options.ins.mode != InsMode::kNone) unused = "ins_mode";
   if (unused == nullptr) return true;
   *error = std::string("--") + unused + " does not go with --method=" + method;
@@ -210,7 +214,9 @@ bool ApplyFlags(const std::string& method,
                                   FLAGS_gravity},
                                  error);
   if (!ins) return false;
+  const Gravity of_preset = options->ins.gravity;
   options->ins = *ins;
+  if (FLAGS_gravity.empty() && has_clouds) options->ins.gravity = of_preset;
   const auto bounds = ParseBoundFlags({FLAGS_guess,
                                        FLAGS_max_translation,
                                        FLAGS_max_yaw_deg,

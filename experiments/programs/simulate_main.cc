@@ -200,14 +200,14 @@ std::optional<quatro::PairSetOptions> SetOfFlags() {
   set.seed = FLAGS_seed;
   set.min_distance = FLAGS_min_distance;
   set.max_distance = FLAGS_max_distance;
-  set.max_yaw = FLAGS_max_yaw_deg * kDegree;
-  set.min_tilt = FLAGS_min_tilt_deg * kDegree;
-  set.max_tilt = FLAGS_max_tilt_deg * kDegree;
+  set.max_yaw = FLAGS_max_yaw_deg * quatro::kDegree;
+  set.min_tilt = FLAGS_min_tilt_deg * quatro::kDegree;
+  set.max_tilt = FLAGS_max_tilt_deg * quatro::kDegree;
   set.no_overlap = FLAGS_no_overlap;
   set.num_features = FLAGS_features;
   set.sensor = FLAGS_sensor;
-  set.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
-  set.ins_sigma = FLAGS_ins_std_deg * kDegree;
+  set.tilt_sigma = FLAGS_tilt_sigma_deg * quatro::kDegree;
+  set.ins_sigma = FLAGS_ins_std_deg * quatro::kDegree;
   return set;
 }
 
@@ -220,9 +220,9 @@ int WriteDrive() {
   options.sensor = FLAGS_sensor;
   options.has_sweep_motion = FLAGS_sweep_motion;
   options.num_moving_cars = FLAGS_moving_cars;
-  options.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
-  options.ins_sigma = FLAGS_ins_noise_deg * kDegree;
-  options.ins_bias_sigma = FLAGS_ins_bias_deg * kDegree;
+  options.tilt_sigma = FLAGS_tilt_sigma_deg * quatro::kDegree;
+  options.ins_sigma = FLAGS_ins_noise_deg * quatro::kDegree;
+  options.ins_bias_sigma = FLAGS_ins_bias_deg * quatro::kDegree;
   options.layout = FLAGS_layout;
   options.num_threads = FLAGS_threads;
   options.overwrite = FLAGS_overwrite;
@@ -276,8 +276,8 @@ int Main(int argc, char** argv) {
   options.seed = FLAGS_seed;
   options.num_frames = FLAGS_num_frames;
   options.frame_spacing = FLAGS_frame_spacing;
-  options.slope = FLAGS_slope_deg * kDegree;
-  options.tilt_sigma = FLAGS_tilt_sigma_deg * kDegree;
+  options.slope = FLAGS_slope_deg * quatro::kDegree;
+  options.tilt_sigma = FLAGS_tilt_sigma_deg * quatro::kDegree;
   options.num_threads = FLAGS_threads;
   options.overwrite = FLAGS_overwrite;
   if (!quatro::SimulateSequence(

@@ -148,9 +148,10 @@ Json DescribeCandidates(const RegistrationSummary& summary) {
         {"shift_m", nullptr},
         {"turn_deg", nullptr}};
     if (answer) {
-      described["shift_m"] = Thousandths((pose * middle - *answer * middle).norm());
-      described["turn_deg"] =
-          Thousandths(180.0 / M_PI * AngleBetween(pose.rotation, answer->rotation));
+      described["shift_m"] =
+          Thousandths((pose * middle - *answer * middle).norm());
+      described["turn_deg"] = Thousandths(
+          180.0 / M_PI * AngleBetween(pose.rotation, answer->rotation));
     }
     candidates.push_back(std::move(described));
   }

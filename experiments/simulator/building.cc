@@ -15,10 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Rigid3 Place(double x, double y, double yaw) {
-  return {RotationZ(yaw), Vector3d(x, y, 0.0)};
-}
-
 }  // namespace
 
 Building::Building(uint64_t seed, int num_corridors_x, int num_corridors_y)

@@ -27,8 +27,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFramePeriod = 0.1;  // [s]
-constexpr double kOnCart = 0.9;       // [m]
+constexpr double kCartHeight = 0.9;  // [m]
 
 struct Plan {
   const char* name;
@@ -84,11 +83,6 @@ std::vector<Crossing> Route(const Plan& plan) {
     route.emplace_back(word[0] - '0', word[1] - '0');
   }
   return route;
-}
-
-double Normal(Random& random) {
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - random.Uniform()));
-  return radius * std::cos(2.0 * M_PI * random.Uniform());
 }
 
 // Roll and pitch of a vehicle on its suspension, s meters from the start.
@@ -256,7 +250,7 @@ Drive MakeBuildingDrive(const DriveOptions& options, const Plan& plan) {
                              Vector3d(way[i].x(), way[i].y(), 0.0)};
     drive.world_from_sensor.push_back(
         on_floor * springs.At(static_cast<double>(i) * options.frame_spacing) *
-        Up(kOnCart));
+        Up(kCartHeight));
   }
   return drive;
 }
@@ -386,15 +380,15 @@ std::vector<InsReading> MeasureDrive(const Drive& drive,
   Random random(Mix(options.seed ^ number << 32) ^ 13);
   Attitude bias;
   for (double* angle : {&bias.roll, &bias.pitch, &bias.yaw}) {
-    *angle = options.ins_bias_sigma * Normal(random);
+    *angle = options.ins_bias_sigma * random.Normal();
   }
   std::vector<InsReading> readings;
   for (size_t i = 0; i < drive.world_from_sensor.size(); ++i) {
     const Eigen::Matrix3d& R = drive.world_from_sensor[i].rotation;
     InsReading reading = RatesAt(drive.world_from_sensor, i);
-    const double noise[] = {options.ins_sigma * Normal(random),
-                            options.ins_sigma * Normal(random),
-                            options.ins_sigma * Normal(random)};
+    const double noise[] = {options.ins_sigma * random.Normal(),
+                            options.ins_sigma * random.Normal(),
+                            options.ins_sigma * random.Normal()};
     reading.attitude.roll = std::atan2(R(2, 1), R(2, 2)) + bias.roll + noise[0];
     reading.attitude.pitch =
         std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))) + bias.pitch +

@@ -11,14 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Rigid3 Shift(double x, double y, double z) {
-  return {Eigen::Matrix3d::Identity(), Vector3d(x, y, z)};
-}
-
-float Shade(Random& random, double lower, double upper) {
-  return static_cast<float>(Uniform(random, lower, upper));
-}
-
 void AddTable(const Rigid3& frame, Random& random, Scene& scene) {
   const double half_x = Uniform(random, 0.4, 1.0);
   const double half_y = Uniform(random, 0.35, 0.5);

@@ -35,6 +35,9 @@ struct RTCSceneTy;
 
 namespace quatro {
 
+// Between two frames of a sequence [s].
+inline constexpr double kFramePeriod = 0.1;
+
 // The beams of a Velodyne HDL-64E, top to bottom: 32 from +2 to -8.33 deg in
 // steps of 1/3 deg, 32 from -8.83 to -24.33 deg in steps of 1/2 deg. [rad]
 std::vector<double> Hdl64Elevations();

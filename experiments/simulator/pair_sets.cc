@@ -19,11 +19,6 @@ namespace {
 // Two cars this far apart have disjoint ranges [m].
 constexpr double kFarApart = 300.0;
 
-double Normal(Random& random) {
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - random.Uniform()));
-  return radius * std::cos(2.0 * M_PI * random.Uniform());
-}
-
 // The attitude of the sensor relative to gravity and the world's x axis, with
 // an error.
 Attitude Measure(const Rigid3& world_from_sensor,
@@ -31,10 +26,10 @@ Attitude Measure(const Rigid3& world_from_sensor,
                  Random& random) {
   const Eigen::Matrix3d& R = world_from_sensor.rotation;
   Attitude attitude;
-  attitude.roll = std::atan2(R(2, 1), R(2, 2)) + sigma * Normal(random);
+  attitude.roll = std::atan2(R(2, 1), R(2, 2)) + sigma * random.Normal();
   attitude.pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))) +
-                   sigma * Normal(random);
-  attitude.yaw = Yaw(R) + sigma * Normal(random);
+                   sigma * random.Normal();
+  attitude.yaw = Yaw(R) + sigma * random.Normal();
   return attitude;
 }
 

@@ -27,6 +27,10 @@
 
 namespace quatro {
 
+// Length of street before the first and after the last pose [m]; hardly any
+// echo comes from farther away.
+inline constexpr double kMargin = 90.0;
+
 struct RoadOptions {
   uint64_t seed = 1;
   double length = 250.0;     // [m]

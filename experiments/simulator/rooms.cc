@@ -19,10 +19,6 @@ using Eigen::Vector3d;
 
 constexpr double kClear = 2.0;  // Between a sensor and furniture [m].
 
-Rigid3 Place(double x, double y, double yaw) {
-  return {RotationZ(yaw), Vector3d(x, y, 0.0)};
-}
-
 // Bit for bit its own inverse, as (1) of the header requires.
 Rigid3 HalfTurn() {
   return {Vector3d(-1.0, -1.0, 1.0).asDiagonal(), Vector3d::Zero()};

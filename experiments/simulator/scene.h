@@ -24,6 +24,26 @@ inline double Uniform(Random& random, double lower, double upper) {
   return lower + (upper - lower) * random.Uniform();
 }
 
+// A random reflectance.
+inline float Shade(Random& random, double lower, double upper) {
+  return static_cast<float>(Uniform(random, lower, upper));
+}
+
+// A translation [m].
+inline Rigid3 Shift(double x, double y, double z) {
+  return {Eigen::Matrix3d::Identity(), Eigen::Vector3d(x, y, z)};
+}
+
+// A rotation about the z axis.
+inline Rigid3 Turned(double yaw) {
+  return {RotationZ(yaw), Eigen::Vector3d::Zero()};
+}
+
+// A place on the ground and a heading.
+inline Rigid3 Place(double x, double y, double yaw) {
+  return {RotationZ(yaw), Eigen::Vector3d(x, y, 0.0)};
+}
+
 // A rectangle of a wall that protrudes or is recessed.
 struct WallPatch {
   double left, right, bottom, top;  // [m], in the wall's x and z.

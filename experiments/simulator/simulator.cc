@@ -9,15 +9,12 @@
 
 #include "experiments/runner/stop_signal.h"
 #include "experiments/simulator/kitti_layout.h"
+#include "experiments/simulator/lidar.h"
+#include "experiments/simulator/road.h"
 #include "experiments/simulator/street.h"
 
 namespace quatro {
 namespace {
-
-// Length of street before the first and after the last pose [m]; hardly any
-// echo comes from farther away.
-constexpr double kMargin = 90.0;
-constexpr double kFramePeriod = 0.1;  // [s]
 
 // Checks the options that pairs and sequences share.
 template <typename Options>

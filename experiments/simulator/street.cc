@@ -60,7 +60,7 @@ class StreetBuilder {
 
   // A frame on the ground with y toward the axis.
   Rigid3 Facing(double s, double e, int side) const {
-    return road_.WorldFromUpright(s, side * e) * Turn(side > 0 ? M_PI : 0.0);
+    return road_.WorldFromUpright(s, side * e) * Turned(side > 0 ? M_PI : 0.0);
   }
 
   void AddGround() {
@@ -105,11 +105,12 @@ class StreetBuilder {
     const double yaw = -side * std::atan2(outward, along);
     for (int i = 0; i < num_pieces; ++i) {
       const double t = (i + 0.5) / num_pieces;
-      AddBorderPiece(Facing(s0 + t * along, e0 + t * outward, side) * Turn(yaw),
-                     border,
-                     i,
-                     random_,
-                     scene_);
+      AddBorderPiece(
+          Facing(s0 + t * along, e0 + t * outward, side) * Turned(yaw),
+          border,
+          i,
+          random_,
+          scene_);
     }
   }
 
@@ -229,7 +230,7 @@ class StreetBuilder {
     }
     for (double s = Draw(3.0, 25.0); s < length_; s += Draw(12.0, 40.0)) {
       if (is_taken(s)) continue;
-      const Rigid3 sign = Facing(s, edge, side) * Turn(M_PI / 2.0);
+      const Rigid3 sign = Facing(s, edge, side) * Turned(M_PI / 2.0);
       scene_.AddCylinder(sign, 0.035, -0.5, 2.7, 0.6f);
       scene_.AddBox(sign, {-0.3, 0.03, 2.1}, {0.3, 0.05, 2.7}, 0.95f);
     }
@@ -260,10 +261,10 @@ class StreetBuilder {
       if (kind < 0.85) {
         AddPlant(s, e, side, 0.4);
       } else if (kind < 0.93) {
-        AddShed(Facing(s, e, side) * Turn(yaw), random_, scene_);
+        AddShed(Facing(s, e, side) * Turned(yaw), random_, scene_);
       } else if (!road_.IsInSideStreet(s, side, 12.0)) {
         const double width = Draw(8.0, 12.0);
-        AddHouse(Facing(s, e, side) * Turn(yaw), width, 8.0, random_, scene_);
+        AddHouse(Facing(s, e, side) * Turned(yaw), width, 8.0, random_, scene_);
       }
     }
   }
@@ -283,7 +284,7 @@ class StreetBuilder {
         const double setback = Draw(2.5, 5.0);
         AddHouse(road_.WorldFromUpright(kerb + edge * setback,
                                         street.side * (e + width / 2.0)) *
-                     Turn(edge * M_PI / 2.0),
+                     Turned(edge * M_PI / 2.0),
                  width,
                  8.0,
                  random_,

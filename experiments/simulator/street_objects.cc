@@ -17,14 +17,6 @@ using Eigen::Vector3d;
 constexpr double kStorey = 2.9;  // [m]
 constexpr double kCellar = 5.0;  // Depth of a house below ground [m].
 
-Rigid3 Shift(double x, double y, double z) {
-  return {Eigen::Matrix3d::Identity(), Vector3d(x, y, z)};
-}
-
-float Shade(Random& random, double lower, double upper) {
-  return static_cast<float>(Uniform(random, lower, upper));
-}
-
 bool Chance(Random& random, double probability) {
   return random.Uniform() < probability;
 }
@@ -189,7 +181,7 @@ void AddHouse(const Rigid3& world_from_house,
   for (int i = 0; i < 4; ++i) {  // Front, sides, back.
     const bool is_side = i % 2 == 1;
     const Rigid3 house_from_facade =
-        house_from_middle * Turn(i * M_PI / 2.0) *
+        house_from_middle * Turned(i * M_PI / 2.0) *
         Shift(0.0, (is_side ? width : depth) / 2.0, 0.0);
     const bool has_openings = i == 0 || (is_side && Chance(random, 0.5));
     AddFacade(world_from_house * house_from_facade,
@@ -202,7 +194,7 @@ void AddHouse(const Rigid3& world_from_house,
   // The ridge runs along the street; eaves reach over the front.
   const double eaves = Uniform(random, 0.2, 0.6);
   const double ridge = Uniform(random, 0.3, 4.0);
-  scene.AddPrism(world_from_house * Turn(M_PI / 2.0),
+  scene.AddPrism(world_from_house * Turned(M_PI / 2.0),
                  {{eaves, walls.height},
                   {-depth - eaves, walls.height},
                   {-depth / 2.0, walls.height + ridge}},

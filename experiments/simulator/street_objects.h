@@ -9,18 +9,11 @@
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_STREET_OBJECTS_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_STREET_OBJECTS_H_
 
-#include <Eigen/Core>
-
 #include "experiments/simulator/scene.h"
 #include "features/base/random.h"
 #include "features/base/rigid3.h"
 
 namespace quatro {
-
-// A rotation about the z axis.
-inline Rigid3 Turn(double yaw) {
-  return {RotationZ(yaw), Eigen::Vector3d::Zero()};
-}
 
 // A house of one to four stories with windows, doors and an occasional garage,
 // bay or balcony on its four sides; steps, a rain pipe and bins in front of it.

@@ -19,16 +19,10 @@ class Draw {
     return low + (high - low) * random_.Uniform();
   }
 
-  // Standard normal, by Box-Muller.
-  double Normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - random_.Uniform()));
-    return radius * std::cos(2.0 * M_PI * random_.Uniform());
-  }
-
   Eigen::Vector3d Noise(double sigma) {
-    const double x = Normal();
-    const double y = Normal();
-    return sigma * Eigen::Vector3d(x, y, Normal());
+    const double x = random_.Normal();
+    const double y = random_.Normal();
+    return sigma * Eigen::Vector3d(x, y, random_.Normal());
   }
 
   Eigen::Vector3d Point() {

@@ -30,15 +30,8 @@ constexpr std::pair<WorldKind, const char*> kNames[] = {
 
 constexpr double kMaxDistanceInRoom = 3.0;  // [m]
 
-// Length of street before the first place and after the last [m].
-constexpr double kMargin = 90.0;
 constexpr double kOnCar = Road::kSensorHeight;
 constexpr double kOnCart = 0.9;  // [m]
-
-double Normal(Random& random) {
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - random.Uniform()));
-  return radius * std::cos(2.0 * M_PI * random.Uniform());
-}
 
 // On a level floor, with random roll and pitch.
 Rigid3 OnFloor(const Vector2d& xy,
@@ -46,8 +39,9 @@ Rigid3 OnFloor(const Vector2d& xy,
                double yaw,
                double tilt_sigma,
                Random& random) {
-  const Eigen::AngleAxisd pitch(tilt_sigma * Normal(random), Vector3d::UnitY());
-  const Eigen::AngleAxisd roll(tilt_sigma * Normal(random), Vector3d::UnitX());
+  const Eigen::AngleAxisd pitch(tilt_sigma * random.Normal(),
+                                Vector3d::UnitY());
+  const Eigen::AngleAxisd roll(tilt_sigma * random.Normal(), Vector3d::UnitX());
   return {RotationZ(yaw) * (pitch * roll).toRotationMatrix(),
           Vector3d(xy.x(), xy.y(), height)};
 }

@@ -10,11 +10,10 @@
 
 #include "experiments/tables/published_figures.h"
 #include "experiments/tables/summary_cells.h"
+#include "features/base/degree.h"
 
 namespace quatro {
 namespace {
-
-constexpr double kRadian = 180.0 / M_PI;  // [deg]
 
 void AddErrors(const std::vector<PairResult>& results,
                const TableOptions& options,

@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <optional>
 
+#include "features/base/degree.h"
+
 namespace quatro {
 namespace {
-
-constexpr double kRadian = 180.0 / M_PI;  // [deg]
 
 void AddAverageColumns(const std::string& of,
                        const TableOptions& options,

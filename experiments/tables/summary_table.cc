@@ -9,6 +9,7 @@
 
 #include "experiments/metrics/paired_test.h"
 #include "experiments/tables/summary_cells.h"
+#include "features/base/degree.h"
 
 namespace quatro {
 namespace {
@@ -46,7 +47,6 @@ Table MakeSummaryTable(const std::vector<PairResult>& results,
 Table MakeSignificanceTable(const std::vector<PairResult>& results,
                             const std::string& reference,
                             const TableOptions& options) {
-  constexpr double kRadian = 180.0 / M_PI;  // [deg]
   Table table;
   table.columns = {"method",
                    "against",

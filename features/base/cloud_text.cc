@@ -71,6 +71,12 @@ std::string_view TakeWord(std::string_view* line) {
   return word;
 }
 
+std::string_view Trim(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\v\f\n";
+  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+  return text.substr(0, text.find_last_not_of(kSpace) + 1);
+}
+
 std::uint64_t CountLines(std::string_view text) {
   std::uint64_t num_lines = 0;
   while (!text.empty()) {

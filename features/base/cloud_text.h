@@ -37,6 +37,9 @@ class HeaderLines {
 // Removes the first word from *line and returns it; empty if there is none.
 std::string_view TakeWord(std::string_view* line);
 
+// Without white space at the beginning and at the end.
+std::string_view Trim(std::string_view text);
+
 // The number of lines with at least one word.
 std::uint64_t CountLines(std::string_view text);
 

@@ -10,6 +10,7 @@
 namespace quatro {
 
 inline constexpr double kDegree = M_PI / 180.0;  // [rad]
+inline constexpr double kRadian = 180.0 / M_PI;  // [deg]
 
 }  // namespace quatro
 

@@ -10,6 +10,7 @@
 #ifndef QUATRO_FEATURES_BASE_RANDOM_H_
 #define QUATRO_FEATURES_BASE_RANDOM_H_
 
+#include <cmath>
 #include <cstdint>
 
 namespace quatro {
@@ -42,6 +43,12 @@ class Random {
 
   // Uniform in [0, 1).
   double Uniform() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
+
+  // Normal, mean 0 and variance 1, by Box and Muller from two uniform ones.
+  double Normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
+    return radius * std::cos(2.0 * M_PI * Uniform());
+  }
 
  private:
   std::uint64_t state_;

@@ -27,12 +27,6 @@ struct Header {
   std::uint64_t num_columns = 0;
 };
 
-std::string_view Trim(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
-  return text.substr(0, text.find_last_not_of(kSpace) + 1);
-}
-
 // Removes the header's dictionary from *bytes. Empty, with *error set, if there
 // is none.
 std::string_view TakeDictionary(std::string_view* bytes, std::string* error) {

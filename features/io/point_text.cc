@@ -27,12 +27,6 @@ struct Line {
   std::string Name() const { return "line " + std::to_string(number); }
 };
 
-std::string_view Trim(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\v\f";
-  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
-  return text.substr(0, text.find_last_not_of(kSpace) + 1);
-}
-
 // The lines of a file that are not empty.
 class Lines {
  public:

@@ -27,7 +27,7 @@ namespace {
 constexpr int kFgrNeeds = 3;
 
 // Matches that one thread sums at a time. The sums are added in order.
-constexpr Eigen::Index kPiece = 4096;
+constexpr Eigen::Index kNumPerPiece = 4096;
 
 // Sums over the matches for (3), with x = T p and e = q - x.
 struct Moments {
@@ -171,9 +171,9 @@ FgrNormalEquations LinearizeFgr(const PointsRef& source,
                                 int num_threads) {
   CHECK_EQ(source.cols(), target.cols());
   const Eigen::Index n = source.cols();
-  std::vector<Moments> pieces(static_cast<std::size_t>(n / kPiece + 1));
+  std::vector<Moments> pieces(static_cast<std::size_t>(n / kNumPerPiece + 1));
   ParallelFor(
-      num_threads, n, kPiece, [&](Eigen::Index begin, Eigen::Index end) {
+      num_threads, n, kNumPerPiece, [&](Eigen::Index begin, Eigen::Index end) {
         Moments sums;
         for (Eigen::Index i = begin; i < end; ++i) {
           const Eigen::Vector3d x =
@@ -190,7 +190,7 @@ FgrNormalEquations LinearizeFgr(const PointsRef& source,
           sums.lxe += x.cross(le);
           sums.loss += GemanMcClure::Loss(r2, mu);  // Equation (1).
         }
-        pieces[static_cast<std::size_t>(begin / kPiece)] = sums;
+        pieces[static_cast<std::size_t>(begin / kNumPerPiece)] = sums;
       });
   Moments sums;
   for (const Moments& piece : pieces) sums.Add(piece);

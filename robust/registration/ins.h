@@ -38,6 +38,13 @@ namespace quatro {
 // How the INS is used.
 enum class InsMode { kNone, kRelative, kLeveled, kFused };
 
+// Where the vertical comes from (robust/registration/gravity.h).
+enum class Gravity {
+  kGiven,  // `up`, and the INS if there is one.
+  kScans,  // As kGiven; if that pose is not registered, the scans themselves.
+  kNone,   // The scans themselves: `up` is not used.
+};
+
 // The attitudes from the INS, and their uncertainty.
 struct InsOptions {
   InsMode mode = InsMode::kNone;  // kNone: only `up` has an effect.
@@ -60,6 +67,10 @@ struct InsOptions {
   // The upward direction in a cloud whose roll and pitch are zero, a unit
   // vector. RotationBetween(up, z) rotates the cloud's axes into the body's.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+
+  // kScans has no effect with an INS, with bounds on the pose, or for a method
+  // that searches no other poses. kNone is an error there.
+  Gravity gravity = Gravity::kGiven;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

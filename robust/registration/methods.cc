@@ -197,12 +197,6 @@ constexpr Method kMethods[] = {
      AlignBy<RefinementMethod::kVgicp>},
 };
 
-void Append(OptionList more, OptionList* list) {
-  list->insert(list->end(),
-               std::make_move_iterator(more.begin()),
-               std::make_move_iterator(more.end()));
-}
-
 std::string NamesThatTakeIns() {
   std::string names;
   for (const Method& method : kMethods) {

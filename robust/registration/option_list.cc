@@ -28,12 +28,6 @@ Choice ChoiceOf(std::initializer_list<std::pair<const char*, Enum>> names,
   return choice;
 }
 
-void Append(OptionList more, OptionList* list) {
-  list->insert(list->end(),
-               std::make_move_iterator(more.begin()),
-               std::make_move_iterator(more.end()));
-}
-
 Option PruningOption(Pruning* field) {
   return {"pruning",
           "",
@@ -82,6 +76,12 @@ OptionList GncOptionList(GncOptions* o) {
 }
 
 }  // namespace
+
+void Append(OptionList more, OptionList* list) {
+  list->insert(list->end(),
+               std::make_move_iterator(more.begin()),
+               std::make_move_iterator(more.end()));
+}
 
 OptionList CommonOptions(RegistrationOptions* o) {
   return {{"noise_bound",
@@ -197,7 +197,15 @@ OptionList InsOptionList(RegistrationOptions* options) {
        "standard deviation of an inlier on each axis, for fused; 0: a third "
        "of noise_bound",
        &o->match_std},
-      {"up", "unit vector", "which way is up in a level cloud", &o->up}};
+      {"up", "unit vector", "which way is up in a level cloud", &o->up},
+      {"gravity",
+       "",
+       "where the vertical comes from: as given; as given, then the scans; or "
+       "the scans alone",
+       ChoiceOf({{"given", Gravity::kGiven},
+                 {"scans", Gravity::kScans},
+                 {"none", Gravity::kNone}},
+                &o->gravity)}};
 }
 
 OptionList BoundsOptionList(RegistrationOptions* options) {

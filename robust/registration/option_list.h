@@ -17,6 +17,9 @@ namespace quatro {
 // Options in the order of help texts.
 using OptionList = std::vector<Option>;
 
+// Appends the options of `more`.
+void Append(OptionList more, OptionList* list);
+
 // Options that all methods share: noise bound, seed, threads, probability.
 OptionList CommonOptions(RegistrationOptions* options);
 

@@ -40,7 +40,8 @@ RegistrationOptions MakeAutoOptions(const PointCloud& source,
 
 // Options for a given voxel size > 0 [m]. The other lengths are in proportion
 // as in kitti. If nothing is registered, twice and 3.5 times these lengths are
-// tried. The pose is refined by VG-ICP.
+// tried, at each of them also with the scans' own verticals. The pose is
+// refined by VG-ICP.
 RegistrationOptions MakeAutoOptions(double voxel_size);
 
 }  // namespace quatro

@@ -13,19 +13,13 @@
 
 #include <utility>
 
-#include "features/base/types.h"
 #include "features/io/point_cloud.h"
 #include "robust/registration/front_end.h"
+#include "robust/registration/matches.h"
 #include "robust/registration/options.h"
 #include "robust/registration/summary.h"
 
 namespace quatro {
-
-// Column i of `source` is matched with column i of `target` [m].
-struct Matches {
-  PointsRef source;
-  PointsRef target;
-};
 
 // Registers two clouds, with no guess of the motion between them unless
 // options.bounds has one. Lengths in meters. Errors are in summary.error.

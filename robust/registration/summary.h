@@ -56,6 +56,10 @@ struct RegistrationSummary {
   // times this (PoseSearchOptions::scale_factors).
   double scale_factor = 1.0;
 
+  // What the level frames came from: "given", or the scans' own "matches" or
+  // "normals" (robust/registration/gravity.h).
+  std::string leveled_by = "given";
+
   // The candidates of all rungs that were tried, the best of each rung first.
   std::vector<PoseCandidate> candidates;
 

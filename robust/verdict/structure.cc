@@ -10,7 +10,6 @@
 namespace quatro {
 namespace {
 
-constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
 constexpr double kRangeQuantile = 0.75;
 
 }  // namespace

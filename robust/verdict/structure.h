@@ -12,6 +12,9 @@
 
 namespace quatro {
 
+// The largest |n_z| of structure, at 45 deg.
+inline constexpr double kMaxVertical = 0.7071;
+
 // Whether a point with this normal is structure; false for a zero normal.
 bool IsStructure(const Eigen::Vector3d& normal);
 

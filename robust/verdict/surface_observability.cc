@@ -10,11 +10,11 @@
 #include <sstream>
 
 #include "features/base/parallel.h"
+#include "robust/verdict/structure.h"
 
 namespace quatro {
 namespace {
 
-constexpr double kMaxVertical = 0.7071;  // |n_z| of a surface at 45 deg.
 constexpr Eigen::Index kMinOverlapping = 50;
 
 // The points of a that overlap b, and the normals of b there, both in b.

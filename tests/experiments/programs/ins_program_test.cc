@@ -143,7 +143,9 @@ TEST_F(InsProgramTest, StandardDeviationOutOfRange) {
 
 TEST_F(InsProgramTest, GravityWithoutDirection) {
   for (const std::string text : {"0,0,0", "0,1", "up", "inf,0,0", ""}) {
-    ExpectRefused({"--gravity=" + text}, "--gravity=" + text, "must be three");
+    ExpectRefused({"--gravity=" + text},
+                  "--gravity=" + text,
+                  "must be scans, none or three");
   }
 }
 
