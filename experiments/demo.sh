@@ -7,6 +7,11 @@
 # results stay in build/demo/.
 set -euo pipefail
 
+if [[ ${1:-} == --help || ${1:-} == -h ]]; then
+  sed -n '2,7s/^# //p' "$0"
+  exit 0
+fi
+
 usage() {
   echo "usage: $0 [SOURCE TARGET]" >&2
   exit 2

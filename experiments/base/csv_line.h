@@ -20,8 +20,8 @@ std::string QuoteCsvCell(std::string_view cell);
 // Joins the cells with commas, without a line end.
 std::string JoinCsvLine(const std::vector<std::string>& cells);
 
-// As many cells as there are commas outside quotes, and one. Nullopt if a quote
-// is not closed, or is anywhere but around a whole cell.
+// Splits a line at the commas outside quotes. Returns nullopt if a quote is not
+// closed or does not enclose a whole cell.
 std::optional<std::vector<std::string>> SplitCsvLine(std::string_view line);
 
 }  // namespace quatro

@@ -20,10 +20,12 @@ std::vector<std::string_view> SplitFields(std::string_view line,
 // The separators of numbers in lines of text.
 inline constexpr std::string_view kBlanks = " \t\v\f";
 
-// ParseNumber() of features/base/cloud_text.h, where it is finite.
+// Like ParseNumber() of features/base/cloud_text.h, but returns nullopt for a
+// number that is not finite.
 std::optional<double> ParseFiniteNumber(std::string_view field);
 
-// All lines of a text in order, without their ends; the last may lack one.
+// All lines of a text in order, without their line ends. The last line need not
+// have one.
 std::vector<std::string_view> SplitLines(std::string_view text);
 
 }  // namespace quatro

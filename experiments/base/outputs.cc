@@ -45,13 +45,21 @@ bool CanWrite(const std::string& path, std::string* error) {
     *error = path + ": is a directory, must be a file to write";
     return false;
   }
-  // It would be replaced: renaming onto /dev/null leaves a machine without it.
+  // Renaming a file to this path would replace, for example, /dev/null.
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-    *error = path + ": is not a regular file";
+    *error = path + ": is not a regular file; - is standard output";
+    return false;
+  }
+  if (fs::exists(path, ignored) && access(path.c_str(), W_OK) != 0) {
+    *error = path + ": is write-protected; name another file";
     return false;
   }
   const fs::path parent = fs::path(path).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
+  if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
+    *error = path + ": " + folder + " is a file, not a folder";
+    return false;
+  }
   if (!fs::is_directory(folder, ignored)) {
     *error = path + ": there is no folder " + folder;
     return false;
@@ -165,8 +173,8 @@ bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error) {
     pending.push_back(PendingFile::Write(path, bytes, error));
     if (!pending.back()) return false;
   }
-  // A reader that has gone (| head) would end us here, with temporary files
-  // left.
+  // If the reader of a pipe has exited (| head), SIGPIPE would end the program
+  // and leave temporary files.
   const auto before = std::signal(SIGPIPE, SIG_IGN);
   for (const auto& [path, bytes] : files) {
     if (IsStandardOutput(path))

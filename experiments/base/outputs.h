@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a program leaves behind. "-" is standard output wherever a file is to be
-// written, and standard input where one is read; "./-" is a file.
+// Reads a program's inputs and writes its outputs. The path "-" means standard
+// input or standard output; "./-" is a file.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
 #define QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
@@ -26,12 +26,13 @@ struct OutputFlag {
   std::string path;
 };
 
-// Whether a file could be written here, as far as this is known beforehand.
+// Whether a file can be written to this path, as far as this is known
+// beforehand.
 bool CanWrite(const std::string& path, std::string* error);
 
-// Whether all outputs of a program can be written; empty ones are left out.
-// None may be one of the inputs or another output, and at most one standard
-// output.
+// Whether all outputs of a program can be written; empty paths are ignored. An
+// output must not be an input or another output, and at most one may go to
+// standard output.
 bool CanWriteAll(const std::vector<OutputFlag>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error);
@@ -42,11 +43,11 @@ bool HasEnding(const OutputFlag& output,
                const std::string& ending,
                std::string* error);
 
-// Whether a folder can be asked for by this name: not empty and not "-".
+// Whether the path can name a folder: it is neither empty nor "-".
 bool CanBeFolder(const OutputFlag& output, std::string* error);
 
-// The stream for a program's summary: standard output, or standard error if one
-// of its outputs goes to standard output, which is then this output alone.
+// The stream for a program's summary: standard output, or standard error if an
+// output goes to standard output, which must then contain nothing else.
 std::FILE* SummaryStream(const std::vector<std::string>& outputs);
 
 // Reads a text file, or standard input if `path` is "-". Errors are those of
@@ -54,8 +55,8 @@ std::FILE* SummaryStream(const std::vector<std::string>& outputs);
 std::optional<std::string> ReadInput(const std::string& path,
                                      std::string* error);
 
-// Makes a folder and its parents, or on an error none of them. Returns those
-// that it made, the innermost first.
+// Makes a folder and its missing parents, or none of them if there is an error.
+// Returns the new folders, the innermost first.
 std::vector<std::filesystem::path> MakeFolders(
     const std::filesystem::path& folder, std::error_code* error);
 

@@ -13,7 +13,7 @@ fs::path FindSharedFile(const std::string& name) {
   std::error_code ignored;
   const fs::path bin =
       fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  // The last folder is for programs that others build with ours.
+  // The last folder is for programs of users that are built with quatro.
   for (const fs::path& folder : {bin / "../share/quatro",
                                  bin / "../../experiments",
                                  fs::path(QUATRO_BUILT_SHARE)}) {

@@ -11,9 +11,9 @@
 
 namespace quatro {
 
-// Finds a shared file. Installed programs have it in share/, generated files
-// are in the build folder, and the others are beside the sources. If none of
-// these has the file, returns the path in the last of them.
+// Finds a shared file. Installed programs have it in share/, and generated
+// files are in the build folder. If neither has the file, returns its path in
+// experiments/scripts/, whether or not it exists there.
 std::filesystem::path FindSharedFile(const std::string& name);
 
 }  // namespace quatro

@@ -15,9 +15,9 @@ using Coordinates = PairTestLimit::Coordinates;
 constexpr std::size_t kWordBits = 32;
 constexpr std::size_t kRowsPerWord = kWordBits / kLanes;
 
-// The bits of matches [32 `word`, 32 `word` + 32) for the 16 matches of `row`,
-// one word each. Loops over the former one by one and over all lanes of the
-// latter at once.
+// Tests the 16 matches of `row` against matches [32 `word`, 32 `word` + 32) and
+// writes one word of bits per match of `row`. The lanes of `row` are processed
+// at once, the other matches one by one.
 template <int kBytes>
 QUATRO_SIMD_INLINE void TestTile(const Coordinates* rows,
                                  std::size_t word,
@@ -106,7 +106,7 @@ PairTestLimit::PairTestLimit(const PointsRef& source,
     : squared_bound_(static_cast<float>(bound * bound)) {
   CHECK_EQ(source.cols(), target.cols());
   const auto n = static_cast<std::size_t>(source.cols());
-  // An even number, because a word of 32 bits holds two rows.
+  // An even number, because the rows of a Graph consist of 64-bit words.
   const std::size_t num_words = (n + kWordBits - 1) / kWordBits;
   words_per_match_ = num_words + num_words % 2;
   rows_.resize(num_words * kRowsPerWord);

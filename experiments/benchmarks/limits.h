@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The best that a machine can do, to compare stages with in the same run.
+// The best performance of the machine, for comparison with the stages of the
+// same run.
 //
 // PairTestLimit applies the length test to every pair of matches once and
 // stores the results as bits, in a loop that does nothing else:

@@ -101,7 +101,7 @@ void AddVoxelsAndNeighbors(const Adder& add) {
     });
   });
   add("kd_tree/quatro", Needs::kClouds, [](const PairInput& pair, Counters*) {
-    // The tree is built at the first query.
+    // The first query builds the tree.
     ForBoth(pair, [](const CloudInput& cloud) {
       return KdTree(cloud.voxels).Nearest(cloud.voxels.col(0), 1);
     });
@@ -216,7 +216,7 @@ void AddEstimation(const Adder& add) {
         (*c)["matches"] = AsCount(pair.matches.source.cols());
       });
   add("pair_graph/limit", Needs::kClouds, [](const PairInput& pair, Counters*) {
-    // Made at the first run, so that its memory is not measured.
+    // Created in the first run, so that its memory is not measured.
     static const PairInput* made_for = nullptr;
     static std::unique_ptr<PairTestLimit> limit;
     if (made_for != &pair) {

@@ -4,7 +4,8 @@
 //
 //   stage/who[/case]      graph/quatro/N:1000
 //
-// `who` is quatro, `limit` (the best a machine can do), or another library.
+// `who` is quatro, `limit` (the best that the machine can do, limits.h), or
+// another library.
 // Benchmarks of the same stage and case get the same input and can be compared.
 
 #ifndef QUATRO_EXPERIMENTS_BENCHMARKS_STAGES_H_

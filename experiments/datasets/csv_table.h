@@ -25,9 +25,9 @@ struct CsvTable {
   bool Has(const std::string& column) const;
 };
 
-// Returns nullopt, with file and line in *error, if a column comes
-// twice or a row has not as many cells as there are columns. Blank lines, and
-// blanks around names and cells, are passed over.
+// Ignores blank lines, and blanks around names and cells. Returns nullopt, with
+// file and line in *error, if the table is invalid, for example if two columns
+// have the same name or a row does not have one cell per column.
 std::optional<CsvTable> ReadCsvTable(const std::string& path,
                                      std::string* error);
 

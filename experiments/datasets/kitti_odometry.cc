@@ -55,7 +55,7 @@ std::optional<fs::path> FindSequence(const KittiOdometryOptions& options,
   return std::nullopt;
 }
 
-// (1), frame by frame.
+// The poses of the sensor by equation (1).
 std::optional<std::map<int, Rigid3>> ReadPoses(const std::string& path,
                                                const Rigid3& cam0_from_sensor,
                                                std::string* error) {

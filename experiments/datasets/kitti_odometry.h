@@ -17,8 +17,8 @@
 // i of the poses, from 0.
 //
 // The INS is the first available of these: ins_poses; oxts, moved to the sensor
-// by calib_imu_to_velo.txt, or used as the sensor's own without that file; the
-// benchmark's own poses, if the true poses come from a poses.txt. KITTI's poses
+// by calib_imu_to_velo.txt, or without that file taken as the sensor's own; the
+// benchmark's poses, if the true poses come from another file. KITTI's poses
 // and oxts come from the same GPS and INS, so errors relative to the poses say
 // nothing about the oxts.
 
@@ -43,8 +43,8 @@ struct KittiOdometryOptions {
   std::string poses;
   std::string calibration;
 
-  // A second file of poses whose attitudes are used as the INS. Empty: see
-  // above.
+  // A second file of poses, whose attitudes are used as the INS. Empty: the INS
+  // is chosen as described above.
   std::string ins_poses;
 
   double ins_std = 0.0087;  // For any INS [rad].

@@ -31,7 +31,7 @@ struct Entry {
   Rigid3 target_from_source;
 };
 
-// A frame or a sequence.
+// The number of a frame or a sequence.
 std::optional<int> AsIndex(double value) {
   if (!(value >= 0.0 && value <= 1e8) || value != std::floor(value)) {
     return std::nullopt;
@@ -78,7 +78,7 @@ std::optional<Entry> ParseEntry(std::string_view line, std::string* reason) {
   return Entry{sequence, indices[1], indices[3], *pose};
 }
 
-// "10-20 m" of kitti_lc_10_20.txt.
+// "10-20 m" for kitti_lc_10_20.txt, and the name without extension for others.
 std::string BinOf(const std::string& list) {
   std::string stem = fs::path(list).stem().string();
   int min = 0, max = 0, end = 0;
@@ -95,14 +95,14 @@ bool IsKnownWrong(const Entry& entry) {
          (entry.target_from_source.translation - wrong).norm() < 0.01;
 }
 
-// The sequences that can be read, with poses enough to know the INS and the
-// files' names; the others are noted.
+// Reads each sequence once, for its scan files and its INS. A sequence that
+// cannot be read is noted.
 class Sequences {
  public:
   Sequences(const KittiPairListOptions& options, PairSelection* selection)
       : options_(options), selection_(*selection) {}
 
-  // Source, target and INS of a task.
+  // Sets source, target and INS of a task.
   void Complete(const Entry& entry, PairTask* task) {
     if (options_.folder.empty()) return;
     const SequenceData* data = Read(entry.sequence);

@@ -23,8 +23,8 @@ namespace quatro {
 struct KittiPairListOptions {
   std::string list;
 
-  // The folder with the sequences as sequences/00 and so on. If empty, tasks
-  // name no scans; this suffices for looking at the poses.
+  // The folder with the sequences as sequences/00 and so on. If it is empty,
+  // tasks name no scans, which suffices for an analysis of the poses.
   std::string folder;
 
   // Adds to each pair the INS that kitti_odometry.h finds, if any.

@@ -18,7 +18,8 @@ using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
 constexpr double kMaxEntryDeviation = 1e-3;
 
-// The 12 numbers from `first` on, or an empty optional with a reason.
+// Parses the 12 fields from `first` on. Returns nullopt with *reason set if
+// they are not a pose.
 std::optional<Rigid3> ParseRows(const std::vector<std::string_view>& fields,
                                 std::size_t first,
                                 std::string* reason) {
@@ -69,7 +70,8 @@ std::optional<std::vector<Rigid3>> ReadKittiPoses(const std::string& path,
       blank_line = line_number;
       continue;
     }
-    // A line is a frame: those after a blank one would be of a wrong number.
+    // Each line is a frame, so a blank line would shift the frame numbers of
+    // all later lines.
     if (blank_line > 0) {
       *error = path + ": line " + std::to_string(blank_line) +
                " is blank, must have 12 numbers";

@@ -3,7 +3,7 @@
 // Poses in the format of KITTI odometry. Each line is one frame, with 12
 // numbers, the rows of a 3x4 matrix
 //
-//   P_i = cam0 of frame i in cam0 of frame 0,
+//   P_i = cam0 of frame i in cam0 of frame 0.
 //
 // The calibration Tr moves points of the lidar into cam0. With world_from_scan
 // of experiments/odometry/odometry.h,
@@ -25,13 +25,13 @@
 
 namespace quatro {
 
-// Returns the nearest rigid motion; nullopt if the left block differs by more
-// than 1e-3 from every rotation.
+// Returns the nearest rigid motion, or nullopt if an entry of the left block
+// differs by more than 1e-3 from the nearest rotation.
 std::optional<Rigid3> NearestRigid3(const Eigen::Matrix<double, 3, 4>& matrix);
 
-// Strict: nullopt and one line in *error, which names file, line and reason,
-// for anything else than 12 finite numbers a line that make a rigid motion.
-// Blank lines may follow the last.
+// Returns nullopt with one line in *error, which names file, line and reason,
+// unless each line has 12 finite numbers that form a rigid motion. Blank lines
+// are allowed only at the end.
 std::optional<std::vector<Rigid3>> ReadKittiPoses(const std::string& path,
                                                   std::string* error);
 

@@ -6,8 +6,8 @@
 //   FOLDER/oxts/data/0000000000.txt ...              (oxts.h)
 //   calib_imu_to_velo.txt                            in FOLDER or its parent
 //
-// The true poses are those of the INS. With I from that file (velodyne from
-// IMU),
+// The true poses are those of the INS. With I = velodyne_from_imu from
+// calib_imu_to_velo.txt,
 //
 //   W_i = world_from_imu_i I^-1.                                          (1)
 //

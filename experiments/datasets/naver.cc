@@ -70,7 +70,7 @@ std::optional<std::int64_t> ParseStamp(const Row& row, std::string* error) {
   return stamp;
 }
 
-// All values from the third on.
+// Parses all values from the third on.
 std::optional<std::vector<double>> ParseNumbers(const Row& row,
                                                 std::string* error) {
   std::vector<double> numbers;
@@ -87,7 +87,7 @@ std::optional<std::vector<double>> ParseNumbers(const Row& row,
 }
 
 std::optional<Rigid3> ParsePose(const Row& row, std::string* error) {
-  constexpr double kMaxDeviation = 1e-3;  // Deviation of its length from 1.
+  constexpr double kMaxDeviation = 1e-3;  // Deviation from unit length.
   const auto n = ParseNumbers(row, error);
   if (!n) return std::nullopt;
   const Eigen::Quaterniond q((*n)[0], (*n)[1], (*n)[2], (*n)[3]);
@@ -100,7 +100,7 @@ std::optional<Rigid3> ParsePose(const Row& row, std::string* error) {
 
 using Stamped = std::pair<std::int64_t, std::string>;
 
-// By equation (1): from poses of devices and, within rigs, of the device.
+// Finds poses by equation (1), from the trajectories and the rigs.
 class Trajectories {
  public:
   bool Read(const fs::path& sensors, std::string* error) {
@@ -134,7 +134,7 @@ class Trajectories {
   // device_from_world
   std::optional<Rigid3> Find(std::int64_t stamp,
                              const std::string& device) const {
-    constexpr int kMaxDepth = 4;  // Rigs in rigs; also ends a circle of them.
+    constexpr int kMaxDepth = 4;  // Nested rigs; also ends a cycle.
     Rigid3 sensor_from_device;
     std::string name = device;
     for (int depth = 0; depth < kMaxDepth; ++depth) {
@@ -153,7 +153,8 @@ class Trajectories {
   std::map<std::string, std::pair<std::string, Rigid3>> rig_of_;
 };
 
-// Stamp -> path, of the lidar that is asked for or the first.
+// Stamp -> path of the scans of the requested lidar, or of the first lidar by
+// name if `lidar` is empty.
 std::optional<std::map<std::int64_t, std::string>> ReadRecords(
     const fs::path& sensors,
     std::string lidar,

@@ -16,11 +16,11 @@
 namespace quatro {
 
 struct DatasetOptions {
-  std::string folder;                  // With one or several drives.
+  std::string folder;                  // Contains one or several drives.
   std::vector<std::string> sequences;  // Names; empty: all.
 
-  // The file of true poses of the only drive, for KITTI odometry; empty: the
-  // data set's own.
+  // The file of true poses if there is only one drive, for KITTI odometry;
+  // empty: the data set's own.
   std::string poses;
 };
 
@@ -29,9 +29,9 @@ struct DatasetOptions {
 std::optional<std::vector<SequenceData>> OpenDataset(
     const DatasetOptions& options, std::string* error);
 
-// `folder` contains the sequences that a list of KITTI pairs names; it is empty
-// for a list that names its scans itself. Returns nullopt with one line in
-// *error if the list is invalid.
+// `folder` contains the sequences that a list of KITTI pairs refers to. It is
+// ignored for a .csv list, which names its scan files. Returns nullopt with one
+// line in *error if the list is invalid.
 std::optional<PairSelection> OpenPairList(const std::string& list,
                                           const std::string& folder,
                                           std::string* error);

@@ -74,7 +74,7 @@ std::optional<OxtsReading> ReadReading(const std::string& path,
   return reading;
 }
 
-// (1), with the longitude past that of `first`.
+// The position by equation (1), with the longitude relative to `first`.
 Eigen::Vector3d Project(const OxtsReading& reading,
                         const OxtsReading& first,
                         double scale) {

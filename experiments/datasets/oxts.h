@@ -7,8 +7,8 @@
 //   x = s E lon,   y = s E log tan((90 deg + lat) / 2),   z = alt,        (1)
 //   world_from_imu = R_z(yaw) R_y(pitch) R_x(roll),
 //
-// x to the east, y to the north, z up. lon is taken past that of the first
-// frame by the shorter way around, across the date line if need be.
+// x to the east, y to the north, z up. Longitudes are relative to the first
+// frame, by the shorter way around, if necessary across the date line.
 //
 // Source: development kit of the KITTI raw data, for the definition (Geiger et
 // al., IJRR 2013).

@@ -23,8 +23,7 @@ struct PairIns {
 };
 
 struct PairTask {
-  // Identifies the task within its run; readable for people:
-  // "00/004413-000850".
+  // Identifies the task within its run, in readable form: "00/004413-000850".
   std::string name;
 
   // A table has a row for each set and a column for each bin, or vice versa:

@@ -26,7 +26,7 @@ constexpr const char* kPose[] = {"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 constexpr const char* kIns[] = {
     "source_rpy_deg", "target_rpy_deg", "ins_std_deg"};
 
-// All or none of the columns.
+// Whether the table has all of the columns or none of them.
 template <std::size_t n>
 bool HasAll(const CsvTable& table,
             const char* const (&columns)[n],
@@ -52,7 +52,7 @@ bool AllEmpty(const CsvRow& row, const char* const (&columns)[n]) {
   return true;
 }
 
-// A path of Windows is taken as one of this system, if it is no file here.
+// Replaces the backslashes of a Windows path unless a file of this name exists.
 std::string PathOf(const fs::path& folder, std::string cell) {
   std::error_code ignored;
   if (!fs::exists(folder / cell, ignored)) {
@@ -62,7 +62,7 @@ std::string PathOf(const fs::path& folder, std::string cell) {
 }
 
 bool ReadPose(const CsvRow& row, PairTask* task, std::string* error) {
-  constexpr double kMaxDeviation = 1e-3;  // Deviation of its length from 1.
+  constexpr double kMaxDeviation = 1e-3;  // Deviation from unit length.
   double values[7];
   for (std::size_t i = 0; i < 7; ++i) {
     const auto value = ParseFiniteNumber(row.cells.at(kPose[i]));

@@ -4,15 +4,17 @@
 // is a CSV file whose first line names the columns, in any order:
 //
 //   source,target           files, relative to the list's folder
-//   set                     may be missing: the list's own name
-//   tx,ty,tz,qx,qy,qz,qw    target_from_source [m]; all or none of them. Empty:
-//                           the scans share no place. Missing: nothing is known
-//                           of the pose, and no answer is counted as right or
-//                           wrong, unless there is
-//   apart                   where it is not empty, the scans share no place
+//   set                     optional; default: the list's name
+//   tx,ty,tz,qx,qy,qz,qw    target_from_source [m]; all or none of the columns.
+//                           Empty cells: the scans share no place. No columns:
+//                           the true pose is unknown, so that no answer counts
+//                           as correct or incorrect, unless `apart` is set
+//   apart                   optional, for lists without poses; not empty: the
+//                           scans share no place
 //   source_rpy_deg,target_rpy_deg,ins_std_deg
 //                           the INS: "roll,pitch,yaw" of each scan and the
-//                           standard deviation of each angle; empty: no INS
+//                           standard deviation of each angle [deg]; empty: no
+//                           INS
 //
 // Other columns are ignored.
 

@@ -51,7 +51,8 @@ std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
        it.increment(status)) {
     const fs::path& path = it->path();
     const auto type = FindCloudFileType(path.string());
-    // Text beside the scans is of time stamps, poses and calibration.
+    // Text files in this folder are time stamps, poses or calibration, not
+    // scans.
     if (IsHiddenFile(path) || !type || type->format == CloudFormat::kText) {
       continue;
     }

@@ -22,17 +22,18 @@ namespace quatro {
 // Whether the name starts with a dot, as macOS's "._000001.bin" does.
 bool IsHiddenFile(const std::filesystem::path& path);
 
-// Frame number -> path, of the .bin, .ply, .pcd and .npy in `folder`/velodyne
-// or, without such a folder, in `folder`; each may be compressed (.gz). Hidden
-// files are passed over. Nullopt
-// with *error set if there are none, a name is no number, or two have the same.
+// Frame number -> path of the .bin, .ply, .pcd and .npy files in
+// `folder`/velodyne or, without such a folder, in `folder`. Files may be
+// compressed (.gz); hidden files are ignored. Returns nullopt with *error set
+// if there are no scans, a name is not a number, or two files have the same
+// number.
 std::optional<std::map<int, std::string>> ListScans(const std::string& folder,
                                                     std::string* error);
 
 struct SequenceOptions {
   int interval = 1;
-  int first_frame = -1;  // -1: of the first file.
-  int last_frame = -1;   // -1, or after it: of the last file.
+  int first_frame = -1;  // -1: the frame of the first file.
+  int last_frame = -1;   // -1, or beyond the last file: its frame.
 
   ReadCloudOptions reading;
 

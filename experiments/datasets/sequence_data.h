@@ -41,7 +41,7 @@ struct SequenceData {
   int num_missing_scans = 0;  // Frames with a pose but no file.
   int num_missing_poses = 0;  // Frames with a file but no pose.
 
-  // Notes for people about missing data and choices made, one per line.
+  // Notes for the user about missing data and choices made, one per line.
   std::vector<std::string> notes;
 };
 
@@ -50,16 +50,17 @@ struct SequenceData {
 void CountMissing(const std::function<std::string(int frame)>& path_of_scan,
                   SequenceData* data);
 
-// The first frame whose file is there; without one, the first of all, or 0.
+// The first frame whose file exists. If no file exists, the first frame, or 0
+// if there are no frames.
 int FirstScan(const SequenceData& data);
 
-// "3, 7-9 and 12": runs of two or more are joined; after five of them,
-// "... (41 in all)". `frames` must be sorted.
+// "3, 7-9 and 12": consecutive frames become a range. Only the first five
+// entries are listed, then "... (41 in all)". `frames` must be sorted.
 std::string FormatFrames(const std::vector<int>& frames);
 
-// Source to target by (1), named "00/004413-000850", with set "00" and no bin,
-// and with the INS if both frames have one. Returns nullopt if either frame has
-// no pose.
+// A task with the true pose by (1), named "00/004413-000850", with set "00" and
+// no bin, and with the INS if both frames have one. Returns nullopt if either
+// frame has no pose.
 std::optional<PairTask> MakePairTask(const SequenceData& data,
                                      int source_frame,
                                      int target_frame);

@@ -60,7 +60,7 @@ struct PairResult {
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 
-  // Returns whether there are a true pose and an answer, and its errors are
+  // Returns whether there are a true pose and an answer, and the errors are
   // within these limits.
   bool IsWithin(double max_translation, double max_rotation) const {
     return error && error->translation <= max_translation &&
@@ -68,14 +68,15 @@ struct PairResult {
   }
 };
 
-// A line of CSV each, under a line of names: pair, set, bin, method, status,
-// distance_m, true_yaw_deg, true_tilt_deg, rotation_error_deg, yaw_error_deg,
-// translation_error_m, probability, matches, consistent, inliers, m00, m01,
-// m02, m03, m10, ... m23 (the rows of the pose's matrix), total_ms, stages_ms
-// ("voxels=1.5;features=60"). What is not known is empty, but distance_m is
-// "unknown" if the true pose is, and empty if the scans share no place. Numbers
-// are written so that reading them gives the same ones bit for bit; they must
-// be finite. Names may hold commas and quotes, not line breaks.
+// CSV with a header line and one line per result: pair, set, bin, method,
+// status, distance_m, true_yaw_deg, true_tilt_deg, rotation_error_deg,
+// yaw_error_deg, translation_error_m, probability, matches, consistent,
+// inliers, m00, m01, m02, m03, m10, ... m23 (the rows of the pose's matrix),
+// total_ms, stages_ms ("voxels=1.5;features=60"). Unknown values are empty,
+// except that distance_m is "unknown" if the true pose is unknown, and empty if
+// the scans share no place. Reading a line recovers every number bit for bit;
+// numbers must be finite. Names may contain commas and quotes, but no line
+// breaks.
 std::string ResultCsvHeader();
 std::string FormatResultCsv(const PairResult& result);
 

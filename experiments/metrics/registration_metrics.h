@@ -11,9 +11,9 @@
 // III says meters. Here t_avg is (2), and (3) has its own name. The paper's
 // averages are over all pairs: its 8.341 m and 33.34 deg of RANSAC10K cannot
 // come from pairs within 2 m and 10 deg. We compute both, over all pairs and
-// over the successful ones. A pair without an answer fails in (1) and is in no
-// average. If a method may refuse to answer, its averages cover only the pairs
-// that it answered; read them together with num_answers.
+// over the successful ones. A pair without an answer fails in (1) and is left
+// out of all averages. If a method may refuse to answer, its averages cover
+// only the pairs that it answered; read them together with num_answers.
 
 #ifndef QUATRO_EXPERIMENTS_METRICS_REGISTRATION_METRICS_H_
 #define QUATRO_EXPERIMENTS_METRICS_REGISTRATION_METRICS_H_
@@ -39,7 +39,8 @@ struct SuccessLimit {
 // (kitti_10m).
 std::vector<SuccessLimit> UsualLimits();
 
-// Parses limits such as "2/10,0.6/5" [m/deg]. Nullopt with *error set.
+// Parses limits such as "2/10,0.6/5" [m/deg]. Returns nullopt with *error set
+// if the text is invalid.
 std::optional<std::vector<SuccessLimit>> ParseLimits(const std::string& text,
                                                      std::string* error);
 
@@ -65,17 +66,18 @@ struct ErrorAverages {
 };
 
 struct RegistrationMetrics {
-  long num_pairs = 0;       // All that were given.
-  long num_unreadable = 0;  // In none of the numbers below.
+  long num_pairs = 0;       // All given results.
+  long num_unreadable = 0;  // Not included in the numbers below.
   long num_apart = 0;       // Pairs that share no place.
-  long num_unknown = 0;     // Whose true pose is not known.
-  long num_posed = 0;       // With truth: what (1) is a share of.
+  long num_unknown = 0;     // Pairs whose true pose is unknown.
+  long num_posed = 0;       // Pairs with a true pose: the denominator of (1).
 
   long num_answers = 0;     // Posed pairs with an answer.
   long num_registered = 0;  // Posed, apart or unknown pairs.
 
-  // Registered, and beyond the first limit or of scans that share no place.
-  // Nothing of the unknown.
+  // False registrations: registered pairs whose error exceeds the first limit
+  // or whose scans share no place. Pairs with an unknown true pose are not
+  // counted.
   long num_wrong_registered = 0;
 
   // One per limit.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Odometry from any registration of two clouds: each scan onto the last that
-// was tracked,
+// Odometry from any registration of two clouds. Each scan is registered to the
+// last tracked scan,
 //
 //   world_from_scan = world_from_last last_from_scan.                      (1)
 
@@ -25,15 +25,15 @@ struct FrameAlignment {
   std::string message;
 };
 
-// A global method does not look at the guess.
+// A global method ignores the guess.
 using FrameAligner =
     std::function<FrameAlignment(const PointCloud& source,
                                  const PointCloud& target,
                                  const Rigid3& target_from_source_guess)>;
 
-// By a method on clouds. The pose counts whether or not it is registered, as in
-// the paper's table; the message contains the verdict. Local methods start from
-// the guess.
+// Aligns frames by a method on clouds. The pose is used whatever its status, as
+// in the paper's table; the message contains the verdict. Local methods start
+// from the guess.
 FrameAligner MakeFrameAligner(PairSolver solver,
                               const RegistrationOptions& options);
 

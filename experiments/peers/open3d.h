@@ -4,9 +4,9 @@
 // oracles. Built only with -DQUATRO_WITH_OPEN3D=ON.
 //
 // Open3D returns the identity if it fails. Here a pose with fewer than three
-// inliers is no answer. Its RANSAC draws from one random generator per process,
-// in its own number of threads, so that even with a seed the result varies from
-// run to run on several cores.
+// inliers is no answer. Its RANSAC uses one random generator per process and
+// chooses its own number of threads, so on several cores the result varies from
+// run to run even with a seed.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_OPEN3D_H_
 #define QUATRO_EXPERIMENTS_PEERS_OPEN3D_H_

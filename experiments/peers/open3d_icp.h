@@ -4,9 +4,9 @@
 // oracles. Built only with -DQUATRO_WITH_OPEN3D=ON.
 //
 // The problem is the same as ours (solvers/local/icp.h, gicp.h), but the
-// stopping criterion differs: it stops once neither the share of
-// correspondences nor their mean distance changes by more than a relative 1e-6.
-// Open3D does not report whether it converged. Its G-ICP computes its own
+// stopping criterion differs: Open3D stops once neither the share of
+// correspondences nor their root mean square distance [m] changes by more than
+// 1e-6. It does not report whether it converged. Its G-ICP computes its own
 // normals from 20 neighbors.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_OPEN3D_ICP_H_
@@ -20,8 +20,9 @@
 namespace quatro {
 
 // Uses these options: method (kIcp or kGicp), epsilon, correspondence distance
-// and number of iterations. The termination of an answer is kNotConverged. Sets
-// pose, number of inliers, termination and message of the summary.
+// and number of iterations. Sets pose, number of inliers, termination and
+// message of the summary. If there is a pose, the termination is always
+// kNotConverged.
 AlignmentSummary AlignByOpen3d(const Points& source,
                                const Points& target,
                                const Rigid3& initial_target_from_source,

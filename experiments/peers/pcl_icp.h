@@ -4,9 +4,9 @@
 // Built only with -DQUATRO_WITH_PCL=ON.
 //
 // PCL uses single precision, so points are passed relative to the target's
-// mean. It stops when its transform changes by less than 1e-3 m and 1e-4 rad,
-// as ours by default. Its G-ICP minimizes with BFGS and computes covariances
-// from 20 neighbors.
+// mean. Like ours, it stops when its pose changes by less than the tolerances,
+// by default 1e-3 m and 1e-4 rad. Its G-ICP minimizes with BFGS and computes
+// covariances from 20 neighbors.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_PCL_ICP_H_
 #define QUATRO_EXPERIMENTS_PEERS_PCL_ICP_H_

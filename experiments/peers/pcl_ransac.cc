@@ -30,7 +30,7 @@ Rigid3 Solve(const PointsRef& source,
              const PointsRef& target,
              double noise_bound,
              const PclRansacOptions& options) {
-  // The mean of the target, so that a large common offset costs no digits.
+  // Relative to the mean of the target, a large common offset costs no digits.
   const Eigen::Vector3d origin = target.rowwise().mean();
   const pcl::shared_ptr<Model> model(new Model(
       ToPclCloud(source, origin), ToPclCloud(target, origin), options.seed));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The methods of peers that are built in, to compare with; none by default.
+// Methods of other libraries, for comparison. None is built in by default.
 
 #ifndef QUATRO_EXPERIMENTS_PEERS_PEER_METHODS_H_
 #define QUATRO_EXPERIMENTS_PEERS_PEER_METHODS_H_
@@ -16,7 +16,7 @@
 
 namespace quatro {
 
-// Works on matched points, `make`, or on clouds, `register_clouds`.
+// Works on matched points (`make`) or on clouds (`register_clouds`).
 struct PeerMethod {
   std::string name;
   std::string description;

@@ -16,9 +16,10 @@
 
 namespace quatro {
 
-// Calls `solve` for target_from_source if there are at least three finite
-// matches, and counts the matches within the noise bound [m]. `library` is used
-// in messages, `stage` for the time. An exception of the library is no answer.
+// Calls `solve` for target_from_source if there are at least three matches and
+// all points are finite, and counts the matches within the noise bound [m].
+// `library` is used in messages, and `stage` names the time. If the library
+// throws an exception, there is no answer.
 PoseSummary SolveByPeer(const PointsRef& source,
                         const PointsRef& target,
                         double noise_bound,

@@ -15,7 +15,8 @@
 namespace quatro {
 namespace {
 
-// U = L^T, because L of L L^T itself would give e^T L^T L e.
+// The U of (1): for information = L L^T, U = L^T. With U = L, |r|^2 would be
+// e^T L^T L e.
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& information) {
   return information.llt().matrixU();
 }

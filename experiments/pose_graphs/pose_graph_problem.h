@@ -35,8 +35,9 @@ std::optional<LoopLoss> ParseLoopLoss(const std::string& name);
 struct PoseGraphOptions {
   LoopLoss loss = LoopLoss::kGnc;
 
-  // The probability that an inlier loop passes the bound. Close to one, because
-  // losing an inlier loop costs more than accepting a borderline outlier.
+  // The probability that an inlier loop is within the bound. It is close to
+  // one, because losing an inlier loop costs more than accepting a borderline
+  // outlier.
   double inlier_probability = 0.999999;
 
   GncOptions gnc;

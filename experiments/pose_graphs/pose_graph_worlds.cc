@@ -35,8 +35,9 @@ Eigen::Matrix3d Exp(const Eigen::Vector3d& rotation) {
   return Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
 }
 
-// Goes straight, left or right at each crossing, and turns back where it would
-// leave the square. The square is small enough for revisits.
+// Goes straight, left or right at each crossing, without leaving a square, and
+// turns back only if there is no other way. The square is small enough for
+// revisits.
 std::vector<Rigid3> WalkManhattan(int num_poses, Random* random) {
   const double half =
       kStreet * std::max(1.0, std::round(std::sqrt(num_poses) / 8.0));
@@ -71,7 +72,7 @@ int PosesPerTurn(int num_poses) {
   return std::max(8, static_cast<int>(std::round(std::sqrt(num_poses))));
 }
 
-// A path from pole to pole, with x ahead and z outward.
+// A spiral from near one pole to near the other, with x ahead and z outward.
 std::vector<Rigid3> WalkSphere(int num_poses) {
   const int per_turn = PosesPerTurn(num_poses);
   const double radius = kStep * per_turn / (2.0 * M_PI);

@@ -4,8 +4,9 @@
 //
 //   manhattan  a walk of 1 m steps on a grid of streets 5 m apart, in the
 //              plane; loops between poses within 1.5 m of each other
-//   sphere     a spiral of 1 m steps on a sphere, in space; loops between
-//              neighbors on successive turns of the spiral
+//   sphere     a spiral on a sphere, in space, with steps of about 1 m at the
+//              equator; loops between neighbors on successive turns of the
+//              spiral
 //
 // Measurements are the true values with normal noise. An outlier loop is
 // between two randomly drawn poses. Its measurement places them within 1 m of

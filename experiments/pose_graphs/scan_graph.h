@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Combines many scans into one pose graph. Every pair that odometry does not
-// join is registered. Its pose, whether or not it is registered, becomes a loop
-// that may be an outlier. GNC (robust/gnc/ceres_gnc.h) decides which loops are
-// consistent with each other and with the odometry.
+// Combines many scans into one pose graph. Every pair of scans that odometry
+// does not join goes through Register(). Its pose, whatever its status, becomes
+// a loop that may be an outlier. GNC (robust/gnc/ceres_gnc.h) decides which
+// loops are consistent with each other and with the odometry.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_SCAN_GRAPH_H_
 #define QUATRO_EXPERIMENTS_POSE_GRAPHS_SCAN_GRAPH_H_
@@ -35,7 +35,7 @@ std::vector<ScanPair> RegisterPairs(
     const RegistrationOptions& options,
     const std::function<void(int, int)>& progress);
 
-// Independent noise with equal variance on each axis.
+// The information of independent noise with equal variance on each axis.
 Eigen::MatrixXd DiagonalInformation(double translation_sigma,  // [m]
                                     double rotation_sigma);    // [rad]
 

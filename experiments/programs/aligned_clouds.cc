@@ -48,7 +48,7 @@ bool AlignedOutput::IsValid(std::string* error) const {
         "of its name says the format; name a .bin, .ply or .pcd file";
     return false;
   }
-  // Any cloud will do to see whether the ending is known.
+  // The cloud only serves to check whether the ending is known.
   PointCloud any;
   any.points.setZero(3, 1);
   if (FormatCloud(any, path, error)) return true;

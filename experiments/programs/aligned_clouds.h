@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The clouds in one frame, the target's, once the pose between them is known.
+// Writes the registered clouds in the frame of the target.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_ALIGNED_CLOUDS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_ALIGNED_CLOUDS_H_
@@ -15,10 +15,10 @@ namespace quatro {
 
 // The file of --output and the clouds of --output_clouds.
 struct AlignedOutput {
-  std::string path;  // Empty: none is asked for.
+  std::string path;  // Empty: no output.
 
-  // "source": moved, with its intensities. "both": the source moved and then
-  // the target, with intensity 0 for the source and 1 for the target.
+  // "source": the source in the target's frame, with its intensities. "both":
+  // also the target, with intensity 0 for the source and 1 for the target.
   std::string clouds = "source";
 
   // Returns false and says which flag is wrong and why in *error.

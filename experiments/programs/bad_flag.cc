@@ -15,7 +15,8 @@
 namespace quatro {
 namespace {
 
-// Letters to insert, remove or replace that a misspelled name is off by.
+// The largest edit distance of a misspelled name: letters to insert, remove or
+// replace.
 constexpr std::size_t kMaxMisspelled = 3;
 
 std::size_t EditDistance(const std::string& a, const std::string& b) {
@@ -32,12 +33,28 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// Empty if none is near.
+// Whether this is a flag of gflags itself, such as --flagfile, which may be
+// repeated and must not be set here.
+bool IsOfGflags(const gflags::CommandLineFlagInfo& flag) {
+  return flag.filename.find("gflags") != std::string::npos;
+}
+
+// The flag with the most similar name, or an empty text if none is similar.
 std::string NearestFlag(const std::string& name) {
   std::vector<gflags::CommandLineFlagInfo> flags;
   gflags::GetAllFlags(&flags);
   std::string nearest;
-  // A name of few letters is near to anything.
+  // A part of another flag's name, or that name with more, such as
+  // --num_threads.
+  constexpr std::size_t kMinPart = 5;
+  for (const gflags::CommandLineFlagInfo& flag : flags) {
+    if (IsOfGflags(flag)) continue;
+    if ((name.size() >= kMinPart && flag.name.starts_with(name)) ||
+        (flag.name.size() >= kMinPart && name.ends_with("_" + flag.name))) {
+      return flag.name;
+    }
+  }
+  // A short name is within a small edit distance of many names.
   std::size_t least = std::min(kMaxMisspelled, name.size() / 2) + 1;
   for (const gflags::CommandLineFlagInfo& flag : flags) {
     const std::size_t distance = EditDistance(name, flag.name);
@@ -48,7 +65,7 @@ std::string NearestFlag(const std::string& name) {
   return nearest;
 }
 
-// The phrase for a value of gflags' type.
+// Describes the values of a type of gflags.
 std::string Describe(const std::string& type) {
   if (type == "bool") return "true or false";
   if (type == "double") return "a number";
@@ -59,12 +76,8 @@ std::string Describe(const std::string& type) {
   return "of type " + type;
 }
 
-// gflags' own flags have a meaning beyond their values.
-bool IsOfGflags(const gflags::CommandLineFlagInfo& flag) {
-  return flag.filename.find("gflags") != std::string::npos;
-}
-
-// Whether the flag's type holds the value.
+// Sets the flag, except for a flag of gflags itself, and returns whether the
+// value has its type.
 bool CanHold(const gflags::CommandLineFlagInfo& flag,
              const std::string& value) {
   return IsOfGflags(flag) ||
@@ -81,7 +94,7 @@ bool IsPartOfWord(char c) {
          (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == '/';
 }
 
-// Options that the library names within its messages, and their flags.
+// Options that may occur anywhere in a message of the library, and their flags.
 constexpr std::pair<const char*, const char*> kOptionsInMessages[] = {
     {"point_floats", "point_floats"},
     {"ins_mode", "ins_mode"},
@@ -145,7 +158,7 @@ std::optional<std::string> TellBadFlag(
       if (!IsOfGflags(flag) && !given.insert(name).second) return Twice(name);
       const bool is_alone = equals == std::string::npos;
       if (is_alone && flag.type == "bool") continue;
-      // Its value may start with a dash.
+      // The next argument is the value, even if it starts with a dash.
       if (is_alone && ++i == arguments.size()) break;
       const std::string value =
           is_alone ? arguments[i] : argument.substr(equals + 1);

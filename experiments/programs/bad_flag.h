@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A flag that a program does not have, with the one that may have been meant, a
-// value that is not of its flag's type, and a flag that is given twice.
+// Messages for invalid flags: an unknown flag (with the flag that was probably
+// meant), a value that does not have the type of its flag, and a flag that is
+// given twice.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_BAD_FLAG_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_BAD_FLAG_H_
@@ -12,16 +13,17 @@
 
 namespace quatro {
 
-// Describes the first argument that is no flag of gflags, has a value of
-// another type or repeats a flag, as --a and --noa do. Returns nullopt if there
-// is none, or if --undefok is among them. Sets the flags before it. `arguments`
-// are without the program's name.
+// Describes the first argument that is an unknown flag, has a value of the
+// wrong type or repeats a flag, as --a and --noa do. Returns nullopt if there
+// is none, or none before an --undefok. Sets the flags before it. `arguments`
+// do not include the program's name.
 std::optional<std::string> TellBadFlag(
     const std::vector<std::string>& arguments);
 
-// A message of the library with its options spelled as flags of this program,
-// if it has them: "voxel_size = -1, must be > 0" begins with --voxel_size=-1,
-// and "method fgr works" with --method=fgr.
+// Replaces the names of options in a message of the library by the flags of
+// this program, if it has them: "voxel_size = -1, must be > 0" becomes
+// "--voxel_size=-1, must be > 0", and "method fgr works" becomes
+// "--method=fgr works".
 std::string SpellAsFlags(std::string message);
 
 }  // namespace quatro

@@ -145,7 +145,7 @@ const char* SimdName() {
   return "baseline";
 }
 
-// The arguments for us, and those for Google Benchmark.
+// The arguments for this program and for Google Benchmark.
 struct Arguments {
   std::vector<char*> ours;
   std::vector<char*> theirs;
@@ -159,7 +159,7 @@ Arguments SplitArguments(int argc, char** argv) {
       arguments.ours.push_back(argv[i]);
       continue;
     }
-    // Standard output has a flag of its own there.
+    // Google Benchmark has another flag for JSON on standard output.
     static char on_standard_output[] = "--benchmark_format=json";
     const bool is_dash = std::string_view(argv[i]).ends_with("benchmark_out=-");
     arguments.theirs.push_back(is_dash ? on_standard_output : argv[i]);
@@ -168,7 +168,8 @@ Arguments SplitArguments(int argc, char** argv) {
   return arguments;
 }
 
-// The clouds that are named. Both are nullopt if a pair is to be simulated.
+// The clouds of --source and --target. Both are nullopt if a pair is to be
+// simulated.
 struct NamedClouds {
   std::optional<quatro::PointCloud> source;
   std::optional<quatro::PointCloud> target;
@@ -193,8 +194,8 @@ bool ReadNamedClouds(double voxel_size,
          CanUse(FLAGS_target, *clouds->target, voxel_size, error);
 }
 
-// The clouds and the results of all stages, of a simulated pair if no clouds
-// are named.
+// The clouds and the results of all stages. Simulates a pair if no clouds are
+// named.
 std::unique_ptr<const quatro::PairInput> MakePair(
     NamedClouds clouds, const quatro::RegistrationOptions& options) {
   if (!clouds.source) {

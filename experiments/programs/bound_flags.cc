@@ -7,19 +7,21 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "experiments/base/number_text.h"
+#include "features/base/cloud_text.h"
 #include "features/base/degree.h"
 #include "features/base/file.h"
 
 namespace quatro {
 namespace {
 
-// Digits that a text file may lack.
+// Allows for rounded numbers in a text file.
 constexpr double kMaxRotationError = 1e-3;
 
 constexpr char kExpected[] =
@@ -81,17 +83,22 @@ std::optional<Rigid3> ParseGuess(const std::string& guess, std::string* error) {
       return std::nullopt;
     }
     text = *bytes;
+    // The answer of quatro_register or quatro_solve.
+    const auto answer =
+        nlohmann::json::parse(text, /*cb=*/nullptr, /*allow_exceptions=*/false);
+    if (answer.is_object() && answer.contains("target_from_source")) {
+      text = answer["target_from_source"].dump();
+    }
   }
   std::vector<double> numbers;
   for (const std::string_view field : SplitFields(text, ", \t\r\n[];")) {
     const auto number = ParseFiniteNumber(field);
     if (!number) {
-      *error = where + ": '" + std::string(field.substr(0, 40)) +
-               "' is not a finite number" + kExpected;
+      *error =
+          where + ": " + Quoted(field) + " is not a finite number" + kExpected;
       return std::nullopt;
     }
     numbers.push_back(*number);
-    if (numbers.size() > 16) break;
   }
   return PoseOfNumbers(where, numbers, error);
 }

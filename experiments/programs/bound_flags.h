@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A guess of the pose and bounds about it on the command line, in degrees.
+// Flags for an initial guess of the pose and for bounds around it. Angles are
+// in degrees.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_BOUND_FLAGS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_BOUND_FLAGS_H_
@@ -14,16 +15,17 @@ namespace quatro {
 
 // The flags --guess, --max_translation, --max_yaw_deg and --max_tilt_deg.
 struct BoundFlags {
-  // target_from_source: a text file, or the numbers themselves. 12 or 16 of
-  // them are rows of a matrix; 4 are x,y,z,yaw_deg.
+  // target_from_source: a text file, or the numbers themselves. 12 or 16
+  // numbers are the rows of a matrix; 4 numbers are x,y,z,yaw_deg.
   std::string guess;
   double max_translation = 0.0;  // [m]; 0: any.
   double max_yaw_deg = 180.0;
   double max_tilt_deg = 5.0;
 };
 
-// Returns nullopt, with *error set to the invalid flag and the reason. A guess
-// without bounds is refused unless the method starts from it (`is_local`).
+// Returns nullopt if a flag is invalid, with the flag and the reason in *error.
+// A guess without bounds is invalid unless the method starts from the guess
+// (`is_local`).
 std::optional<PoseBounds> ParseBoundFlags(const BoundFlags& flags,
                                           bool is_local,
                                           std::string* error);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The flags of quatro_experiment and their values. Functions return nullopt,
-// with *error set to the invalid flag and the reason.
+// The flags of quatro_experiment and their values. Functions return nullopt if
+// a flag is invalid, with the flag and the reason in *error.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_FLAGS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_EXPERIMENT_FLAGS_H_

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // quatro_experiment as a function, so that a user's program can run the same
-// experiments with its own estimators in addition to ours:
+// experiments with its own estimators in addition to those of quatro:
 //
 //   int main(int argc, char** argv) {
 //     return quatro::RunExperimentProgram(argc, argv, {{"mine", "...", Make}});

@@ -127,7 +127,7 @@ std::string ExplainFrontEnd(const Json& report) {
                                   Number(counts["matches"]) + " of them"));
 }
 
-// Why this pose and no other.
+// Explains how the search chose the pose.
 std::string ExplainSearch(const Json& report) {
   const Json candidates = At(report, {"candidates"});
   if (!candidates.is_array() || candidates.empty()) return {};
@@ -139,7 +139,7 @@ std::string ExplainSearch(const Json& report) {
       " candidates were aligned with the scans; ";
   text += rung == 0.0 ? std::string("none is more probable")
                       : "the answer is from rung " + Number(rung);
-  // The best of the rung that gave the answer.
+  // The best candidate of the rung that gave the answer.
   const std::string origin = "rung " + Number(rung == 0.0 ? 1.0 : rung);
   std::size_t first = 0;
   while (first + 1 < candidates.size() &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The messages about flags that are out of range: the value, and the values
-// that are allowed.
+// Messages about flags that are out of range, with the value and the allowed
+// values.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_FLAG_PROBLEMS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_FLAG_PROBLEMS_H_
@@ -24,8 +24,8 @@ std::string FlagProblem(const std::string& name,
   return text.str();
 }
 
-// The preset of --preset. Returns nullopt and sets *error, which lists all
-// presets, if there is none of this name.
+// The preset of this name. If it does not exist, returns nullopt and lists all
+// presets in *error.
 std::optional<RegistrationOptions> FindPreset(const std::string& name,
                                               std::string* error);
 

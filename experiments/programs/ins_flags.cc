@@ -102,7 +102,6 @@ std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
     return std::nullopt;
   }
   ins.attitude_std = flags.std_deg * kDegree;
-  if (flags.gravity.empty()) return ins;
   if (flags.gravity == "scans" || flags.gravity == "none") {
     ins.gravity = flags.gravity == "none" ? Gravity::kNone : Gravity::kScans;
     return ins;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The INS on the command line, the only place where angles are in degrees.
+// Flags for an INS. Angles are in degrees here, and in radians in the library.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_INS_FLAGS_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_INS_FLAGS_H_
@@ -19,16 +19,16 @@ struct InsFlags {
   std::string source_rpy_deg;  // "roll,pitch,yaw"
   std::string target_rpy_deg;
   double std_deg = 0.5;
-  // The up direction, nonzero; scans or none (robust/registration/ins.h);
-  // empty: z.
-  std::string gravity;
+  // The up direction, nonzero; or scans or none (robust/registration/ins.h).
+  std::string gravity = "0,0,1";
 };
 
 // Returns "none", "relative", "leveled" or "fused".
 const char* InsModeName(InsMode mode);
 
-// Returns nullopt, with *error set to the invalid flag and the reason. Both
-// attitudes must be given if the mode needs them, and neither if it does not.
+// Returns nullopt if a flag is invalid, with the flag and the reason in *error.
+// Both attitudes must be given if the mode needs them, and neither if it does
+// not.
 std::optional<InsOptions> ParseInsFlags(const InsFlags& flags,
                                         std::string* error);
 

@@ -131,7 +131,7 @@ void AddUncertainty(const std::optional<PoseCovariance>& uncertainty,
       {"from_residuals", OrNull(uncertainty->estimated_sigma)}};
 }
 
-// Rounds to microseconds, the resolution of the clock.
+// Converts seconds to milliseconds, rounded to microseconds.
 double Milliseconds(double seconds) { return std::round(seconds * 1e6) / 1e3; }
 
 }  // namespace

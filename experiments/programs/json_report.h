@@ -24,13 +24,14 @@ namespace quatro {
 
 using Json = nlohmann::ordered_json;
 
-// The 4 rows of 4 of a pose.
+// A pose as the 4 rows of its 4x4 matrix.
 Json Rows(const Rigid3& pose);
 
-// The fields that both programs report: status and reason (of the verdict),
-// message (of the estimator), target_from_source (4 rows of 4, or null),
-// yaw_deg, counts, covariance (6 rows of 6, rotation [rad] first, or null),
-// unobservable_directions, match_sigma [m], certificate, timings_ms, method.
+// The fields that both programs report. Among them are status, reason and
+// probability (of the verdict), message (of the estimator), target_from_source
+// (4 rows of 4, or null), yaw_deg, counts, evidence, covariance (6 rows of 6,
+// rotation [rad] first, or null), unobservable_directions, match_sigma [m],
+// certificate, timings_ms, notes and method.
 Json MakeReport(const std::string& method,
                 const Verdict& verdict,
                 const PoseSummary& solution,
@@ -40,8 +41,8 @@ Json MakeReport(const std::string& method,
 // The observability of the horizontal position from the surfaces, or null.
 Json Describe(const std::optional<SurfaceObservability>& hold);
 
-// Method, termination, message, whether it was accepted, iterations, inliers,
-// moved_m and moved_deg, cost, conditioning and the pose before refinement.
+// The refinement: method, accepted, message, termination, iterations, inliers,
+// moved_m, moved_deg, cost, conditioning and the pose before the refinement.
 // Null if there was no refinement.
 Json DescribeRefinement(const std::optional<RefinementSummary>& refinement);
 

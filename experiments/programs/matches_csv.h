@@ -16,9 +16,9 @@
 
 namespace quatro {
 
-// Returns nullopt and says file, line, column and reason in *error for anything
-// but six finite numbers a line, and for an empty file; "-" is standard input.
-// A file that has a line of names and no matches is read as no matches.
+// Reads a file, or standard input if `path` is "-". Returns nullopt, with file,
+// line, column and reason in *error, if a line does not have six finite numbers
+// or the file is empty. A file with only a header line has no matches.
 std::optional<MatchedPoints> ReadMatches(const std::string& path,
                                          std::string* error);
 

@@ -17,7 +17,7 @@ struct Described {
   const char* description;
 };
 
-// Run by experiments/odometry/odometry_methods.h.
+// The odometries of experiments/odometry/odometry_methods.h.
 constexpr std::array kOdometries = {
     Described{
         "aloam",
@@ -39,7 +39,7 @@ bool IsKnown(const std::string& name) {
          HasName(kOdometries, name);
 }
 
-// The maker of a solver of matched points: an own method or a peer.
+// Makes the solver of an own method or of a peer for matched points.
 using MakeSolver = std::function<PoseSolver(const QuatroOptions& options)>;
 
 MakeSolver FindMaker(const std::string& name,
@@ -53,7 +53,7 @@ MakeSolver FindMaker(const std::string& name,
   return nullptr;
 }
 
-// The options with the method set.
+// The options with the method or the solver set.
 RegistrationOptions With(const std::string& name,
                          const MakeSolver& make,
                          RegistrationOptions options) {

@@ -18,22 +18,22 @@
 
 namespace quatro {
 
-// Names of all methods that estimate a pose from matched points, or from two
-// clouds alone; own methods are not among them.
+// Names of the methods with this kind of input, in the registry and among the
+// peers. Own methods and odometries are not included.
 std::vector<std::string> ExperimentMethodNames(MethodInput input);
 
-// Names of the odometries, which work on scans in a row.
+// Names of the odometries, which need consecutive scans.
 std::vector<std::string> OdometryMethodNames();
 
-// One line per method, its name and what it does; own methods last.
+// One line per method with its name and description; own methods are last.
 std::string DescribeMethods(const std::vector<OwnMethod>& own = {});
 
 // Whether the method needs an INS.
 bool NeedsIns(const std::string& name);
 
 // A method on two clouds. `matched` is the result of the front end, which
-// several methods share; null: computed if the method needs it. Method and
-// solver of the options are replaced. A local method starts from
+// several methods can share; if it is null, it is computed if necessary. The
+// method and solver of the options are ignored. A local method starts from
 // options.bounds.guess.
 using PairSolver =
     std::function<RegistrationSummary(const PointCloud& source,
@@ -41,8 +41,8 @@ using PairSolver =
                                       const MatchedClouds* matched,
                                       const RegistrationOptions& options)>;
 
-// Returns an empty function and sets *error for an unknown name, an odometry,
-// and a name that is both in `own` and known.
+// Returns an empty function and sets *error if the name is unknown, belongs to
+// an odometry, or is in `own` although a method of quatro has this name.
 PairSolver FindPairSolver(const std::string& name,
                           const std::vector<OwnMethod>& own,
                           std::string* error);
@@ -51,7 +51,7 @@ PairSolver FindPairSolver(const std::string& name,
 using MatchSolver = std::function<RegistrationSummary(
     const Matches& matches, const RegistrationOptions& options)>;
 
-// Like FindPairSolver(); a method that needs clouds is an error, too.
+// Like FindPairSolver(); a method that needs clouds is also an error.
 MatchSolver FindMatchSolver(const std::string& name,
                             const std::vector<OwnMethod>& own,
                             std::string* error);

@@ -3,6 +3,7 @@
 
 #include "experiments/programs/picture.h"
 
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +28,30 @@ namespace fs = std::filesystem;
 constexpr double kDrawnVoxel = 0.2;      // [m]
 constexpr double kOriginStep = 10000.0;  // [m]
 
+sigset_t StopSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    sigaddset(&signals, signal);
+  }
+  return signals;
+}
+
+// Holds Ctrl-C and the like back, so that temporary files are removed first.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    const sigset_t signals = StopSignals();
+    sigprocmask(SIG_BLOCK, &signals, &before_);
+  }
+  ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 // Runs a script with a Python that has matplotlib. Its standard output goes to
 // stderr because ours is for the JSON.
 bool RunPython(const std::vector<std::string>& args, std::string* error) {
@@ -39,6 +64,8 @@ bool RunPython(const std::vector<std::string>& args, std::string* error) {
   argv.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
+    const sigset_t signals = StopSignals();
+    sigprocmask(SIG_UNBLOCK, &signals, nullptr);
     dup2(STDERR_FILENO, STDOUT_FILENO);
     execv(argv[0], argv.data());
     _exit(127);
@@ -101,6 +128,7 @@ std::optional<std::string> DrawRegistration(const RegistrationPicture& picture,
         PointRows(motion.Apply(picture.matched_source).colwise() - origin);
   }
 
+  const HeldSignals signals;
   std::string folder = (fs::temp_directory_path() / "quatro.XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) {
     *error = folder + ": " + std::strerror(errno);

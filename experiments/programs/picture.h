@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The picture of a registration: both clouds from above, before and after, with
-// inlier matches in green and the others in red.
+// inliers in green and the other matches in red.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_PICTURE_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_PICTURE_H_

@@ -22,13 +22,13 @@ DECLARE_bool(helpshort);
 DECLARE_bool(version);
 
 namespace GFLAGS_NAMESPACE {
-extern void (*gflags_exitfunc)(int);  // Called after a flag that is wrong.
+extern void (*gflags_exitfunc)(int);  // Called after an invalid flag.
 }
 
 namespace quatro {
 namespace {
 
-// Without a string, for which there may be no memory.
+// Creates no string, because there may be no memory for it.
 void TellOutOfMemory() {
   EndProgressLine();
   std::fprintf(stderr,
@@ -37,7 +37,8 @@ void TellOutOfMemory() {
                gflags::ProgramInvocationShortName());
 }
 
-// A thread that can't be started says EAGAIN: there is no room for its stack.
+// Whether memory ran out. EAGAIN means that a thread could not be started,
+// because there is no memory for its stack.
 bool IsForMemory(const std::system_error& error) {
   return error.code() == std::errc::resource_unavailable_try_again ||
          error.code() == std::errc::not_enough_memory;
@@ -57,7 +58,8 @@ void TellException() {
   }
 }
 
-// For an exception that nobody on its thread catches: a library's own thread.
+// Ends the program after an exception that is not caught on its thread, for
+// example a thread of a library.
 [[noreturn]] void EndOrderly() {
   if (!std::current_exception()) std::abort();
   try {
@@ -89,7 +91,7 @@ int RunProgram(const std::function<int(int argc, char** argv)>& run,
 std::optional<int> ParseFlags(const std::string& usage, int argc, char** argv) {
   gflags::SetUsageMessage(usage + " Exits with 3 if memory runs out.");
   GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::exit(kExitBadInput); };
-  // For the program's name in what Fail() prints.
+  // Fail() prints the program's name.
   gflags::SetArgv(argc, const_cast<const char**>(argv));
   if (const auto problem = TellBadFlag({argv + 1, argv + argc})) {
     return Fail(*problem);

@@ -13,15 +13,15 @@ namespace quatro {
 
 enum ExitCode {
   kExitDone = 0,           // Registration programs: registered.
-  kExitNotVouchedFor = 1,  // There may be an answer; the JSON gives the reason.
+  kExitNotVouchedFor = 1,  // Not registered; the JSON gives the reason.
   kExitBadInput = 2,       // Flag or file; one line on stderr says which.
-  kExitStopped = 3,        // Interrupted, or out of memory.
+  kExitStopped = 3,        // Interrupted, out of memory or another exception.
 };
 
 // Runs a whole program: run(argc, argv) returns its exit code. If memory runs
-// out or a library throws, prints one line on stderr and returns kExitStopped.
-// If standard output cannot be written, prints one line and returns
-// kExitBadInput.
+// out or a library throws an exception, prints one line on stderr and returns
+// kExitStopped. If standard output cannot be written, prints one line on stderr
+// and returns kExitBadInput.
 int RunProgram(const std::function<int(int argc, char** argv)>& run,
                int argc,
                char** argv);

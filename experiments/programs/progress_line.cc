@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSecondsBetweenLines = 10.0;
 
-// Whether the cursor is behind a progress that is not at its end.
+// Whether the terminal shows an unfinished progress line.
 bool& IsProgressLineOpen() {
   static bool is_open = false;
   return is_open;

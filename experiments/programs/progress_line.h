@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// How much is done and how long the rest will take, on standard error. On a
-// terminal this is one line that is written over. Elsewhere, as in the log of a
-// batch job, it is a line every ten seconds at most, and one at the end.
+// Reports the progress and the estimated remaining time on standard error. On a
+// terminal, this is one line that is overwritten. Elsewhere, for example in the
+// log of a batch job, it is at most one line every ten seconds, and one at the
+// end.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
@@ -13,7 +14,7 @@
 
 namespace quatro {
 
-// Before an error, say, so that it gets a line of its own.
+// Ends an unfinished progress line, so that a message gets its own line.
 void EndProgressLine();
 
 class ProgressLine {

@@ -70,7 +70,7 @@ DEFINE_string(correspondences_out,
 
 namespace {
 
-// The report's header: what the answer depends on.
+// The report's header: the inputs on which the answer depends.
 quatro::Manifest ManifestOf(const quatro::Json& report) {
   quatro::Manifest manifest = quatro::BeginManifest();
   manifest.seed = FLAGS_seed;
@@ -100,8 +100,8 @@ constexpr char kUsage[] =
     "JSON\n"
     "says why); 2 if a flag or a file is invalid (nothing is written then).";
 
-// The options that the flags ask for, but for those that --preset=auto takes
-// from the clouds.
+// The options by the flags, except for those that --preset=auto computes from
+// the clouds.
 std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     const quatro::PointCloud& source,
     const quatro::PointCloud& target,
@@ -192,7 +192,7 @@ std::optional<Registered> ReadAndRegister(std::string* error) {
                     std::move(summary)};
 }
 
-// The answer, and what it was computed from.
+// The JSON report: the answer, its inputs and its options.
 quatro::Json MakeReportOf(const Registered& registered) {
   const quatro::RegistrationSummary& summary = registered.summary;
   quatro::Json report = quatro::MakeReport(FLAGS_method,

@@ -6,6 +6,7 @@
 #include <gflags/gflags.h>
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <string_view>
 
 #include "experiments/programs/bound_flags.h"
@@ -41,10 +42,10 @@ DEFINE_double(ins_std_deg,
               0.5,
               "Standard deviation of each roll and pitch [deg], for fused");
 DEFINE_string(gravity,
-              "",
+              "preset",
               "Which way is up: x,y,z; scans: z, and if that pose is not "
               "registered, what the scans say; none: what the scans say; "
-              "empty: scans for preset auto, else 0,0,1");
+              "preset: scans for auto, 0,0,1 for others");
 DEFINE_string(guess,
               "",
               "A prior on target_from_source: x,y,z,yaw_deg, or a text file of "
@@ -78,8 +79,8 @@ DEFINE_string(picture, "", "PNG file for the points before and after");
 namespace quatro {
 namespace {
 
-// Sets the option of this name. Returns false and sets *error if there is none,
-// or for a value of another type.
+// Sets the option of this name. Returns false and sets *error if there is no
+// such option or the value has another type.
 bool SetOption(const OptionList& list,
                const std::string& name,
                const std::string& value,
@@ -93,10 +94,19 @@ bool SetOption(const OptionList& list,
   return false;
 }
 
-// "name=value;name=value".
+// Whether the option was also set by a flag.
+bool IsGivenAsFlag(const std::string& option) {
+  gflags::CommandLineFlagInfo flag;
+  const std::string name = option == "num_threads" ? "threads" : option;
+  return gflags::GetCommandLineFlagInfo(name.c_str(), &flag) &&
+         !flag.is_default;
+}
+
+// Sets options from "name=value;name=value".
 bool SetOptions(const OptionList& list,
                 std::string_view text,
                 std::string* error) {
+  std::set<std::string> given;
   while (!text.empty()) {
     const std::string_view part = text.substr(0, text.find(';'));
     text.remove_prefix(std::min(text.size(), part.size() + 1));
@@ -105,10 +115,12 @@ bool SetOptions(const OptionList& list,
       *error = std::string(part) + ", must be name=value";
       return false;
     }
-    if (!SetOption(list,
-                   std::string(part.substr(0, equals)),
-                   std::string(part.substr(equals + 1)),
-                   error)) {
+    const std::string name(part.substr(0, equals));
+    if (!given.insert(name).second || IsGivenAsFlag(name)) {
+      *error = name + " is given twice, must be given once";
+      return false;
+    }
+    if (!SetOption(list, name, std::string(part.substr(equals + 1)), error)) {
       return false;
     }
   }
@@ -132,7 +144,7 @@ bool CanStartFromGuess(const std::string& method,
                        std::string* error) {
   const char* unused = nullptr;
   if (!refine.empty() && refine != "none") unused = "refine";
-  if (!FLAGS_gravity.empty() && FLAGS_gravity != "0,0,1") unused = "gravity";
+  if (FLAGS_gravity != "preset" && FLAGS_gravity != "0,0,1") unused = "gravity";
   if (options.ins.mode != InsMode::kNone) unused = "ins_mode";
   if (unused == nullptr) return true;
   *error = std::string("--") + unused + " does not go with --method=" + method;
@@ -174,8 +186,8 @@ std::string DescribeOptionsOf(const std::string& method,
   return text;
 }
 
-// Where the JSON goes: a file, "-", or, if empty, nowhere. --explain takes its
-// place on standard output.
+// The output of the JSON: a file, "-", or empty for none. Without --json, it is
+// standard output, unless --explain uses that.
 std::string JsonPath() {
   return FLAGS_json.empty() && !FLAGS_explain ? "-" : FLAGS_json;
 }
@@ -207,16 +219,17 @@ bool ApplyFlags(const std::string& method,
       !SetOption(RefinementOptionList(options), "refine", refine, error)) {
     return false;
   }
+  const bool is_of_preset = FLAGS_gravity == "preset";
   const auto ins = ParseInsFlags({FLAGS_ins_mode,
                                   FLAGS_source_rpy_deg,
                                   FLAGS_target_rpy_deg,
                                   FLAGS_ins_std_deg,
-                                  FLAGS_gravity},
+                                  is_of_preset ? "0,0,1" : FLAGS_gravity},
                                  error);
   if (!ins) return false;
   const Gravity of_preset = options->ins.gravity;
   options->ins = *ins;
-  if (FLAGS_gravity.empty() && has_clouds) options->ins.gravity = of_preset;
+  if (is_of_preset && has_clouds) options->ins.gravity = of_preset;
   const auto bounds = ParseBoundFlags({FLAGS_guess,
                                        FLAGS_max_translation,
                                        FLAGS_max_yaw_deg,

@@ -24,17 +24,17 @@ namespace quatro {
 // Whether the method works on clouds alone, from a guess.
 bool StartsFromGuess(const std::string& method);
 
-// Sets what the flags ask for, among them --method and --refine, which is empty
-// without clouds. Returns false and sets *error, which names the flag, for a
-// value that is not valid or does not go with the method.
+// Sets the options from the flags, including `method` and `refine`; `refine` is
+// empty without clouds. Returns false and names the flag in *error if a value
+// is invalid or cannot be used with the method.
 bool ApplyFlags(const std::string& method,
                 const std::string& refine,
                 bool has_clouds,
                 RegistrationOptions* options,
                 std::string* error);
 
-// Prints the list that --list_methods or --list_options asks for and returns
-// the exit code. Returns nullopt if neither is given.
+// Prints the list for --list_methods or --list_options and returns the exit
+// code. Returns nullopt if neither flag is given.
 std::optional<int> PrintLists(const std::string& method, bool has_clouds);
 
 // Whether --json, --explain, --picture and `others` can be written. Returns
@@ -46,8 +46,8 @@ bool CanWriteAnswer(const std::vector<OutputFlag>& others,
 // "registered: 245 of 1109 matches are inliers; ..."
 std::string VerdictLine(const Verdict& verdict);
 
-// Writes `files`, the picture if --picture is given, and the report where
-// --json and --explain ask for it. Returns the program's exit code.
+// Writes `files`, the picture for --picture, the report for --json and its
+// explanation for --explain. Returns the program's exit code.
 int WriteAnswer(const Json& report,
                 const RegistrationPicture& picture,
                 const Verdict& verdict,

@@ -128,8 +128,8 @@ std::optional<quatro::PoseGraphOptions> GraphOptionsFromFlags(
   return std::nullopt;
 }
 
-// Whether the graph has a pose for each scan, and odometry alone, from each to
-// the next.
+// Whether the graph has a pose for each scan, and as edges only the odometry
+// from each scan to the next.
 bool IsOdometryOf(const quatro::PoseGraph& graph,
                   std::size_t num_scans,
                   std::string* error) {
@@ -176,8 +176,8 @@ std::optional<std::vector<quatro::PointCloud>> ReadScans(
   return scans;
 }
 
-// Prints a line per pair. `weights` has one for each edge of the graph, that of
-// the first loop at `first_loop`.
+// Prints a line per pair. `weights` has one weight for each edge of the graph;
+// `first_loop` is the index of the first loop.
 void PrintPairs(std::FILE* out,
                 const std::vector<std::string>& paths,
                 const std::vector<quatro::ScanPair>& pairs,

@@ -35,7 +35,7 @@ constexpr char kUsage[] =
     "written\n"
     "then).";
 
-// The answer, and what it was computed from.
+// The JSON report: the answer, its inputs and its options.
 quatro::Json MakeReportOf(const quatro::RegistrationSummary& summary,
                           const quatro::RegistrationOptions& options) {
   quatro::Json report = quatro::MakeReport(FLAGS_method,

@@ -19,8 +19,8 @@
 
 namespace quatro {
 
-// Rotates one pair. Name and bin stay; the yaw is added to any previous added
-// yaw. [rad]
+// Rotates the source of a pair by `yaw` [rad], in addition to any previously
+// added yaw. Name and bin stay.
 PairTask AddYaw(const PairTask& task, double yaw);
 
 // The yaws 0, step, ... 180 deg, in radians.

@@ -23,8 +23,8 @@
 namespace quatro {
 
 struct FilmFrame {
-  double mu = 0.0;   // 0 for the plain fit, which has no weights.
-  double yaw = 0.0;  // Fitted with these weights [rad].
+  double mu = 0.0;   // 0 for the unweighted fit.
+  double yaw = 0.0;  // Fitted with the weights below [rad].
   Weights weights;
   Eigen::VectorXd curve;  // (1) over GncFilm::yaws.
 };

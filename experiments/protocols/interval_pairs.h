@@ -19,8 +19,8 @@ namespace quatro {
 
 struct IntervalPairOptions {
   std::vector<int> intervals = {1, 3, 5};  // k
-  int first_frame = -1;                    // -1: of the first scan.
-  int last_frame = -1;                     // Largest i + k; -1: the last.
+  int first_frame = -1;                    // -1: the frame of the first scan.
+  int last_frame = -1;                     // Largest i + k; -1: the last frame.
 
   // If true, i - first_frame is a multiple of k, so that the pairs form a
   // chain, as in an odometry.
@@ -34,9 +34,9 @@ struct IntervalPairOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Pairs by interval, with bins "interval 3". Pairs with a frame without pose
-// are counted before drawing and left out. Returns nullopt with *error set if
-// the options are invalid.
+// Pairs by interval, with bins such as "interval 3". Pairs with a frame without
+// a pose are counted and left out before drawing. Returns nullopt with *error
+// set if the options are invalid.
 std::optional<PairSelection> SelectIntervalPairs(
     const SequenceData& data,
     const IntervalPairOptions& options,

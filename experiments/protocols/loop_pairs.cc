@@ -101,7 +101,7 @@ std::vector<Loop> FindLoops(const SequenceData& data,
                        : places.back().path +
                              (pose.translation - places.back().position).norm();
     for (const Place& earlier : places) {
-      // Both gaps only shrink from here on.
+      // For later places, both gaps are smaller still.
       if (frame - earlier.frame <= options.min_frame_gap ||
           path - earlier.path < options.min_path) {
         break;

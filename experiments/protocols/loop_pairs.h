@@ -7,9 +7,9 @@
 //   i - j > min_frame_gap,  s_i - s_j >= min_path,  a <= |p_i - p_j| < b. (1)
 //
 // The later frame is the source, the earlier one the target. The paper states
-// neither a gap nor a path for its loops (Tables I and III). 100 frames are 10
-// s of a lidar at 10 Hz, and the path excludes a vehicle that waits at a
-// traffic light for longer. The kitti_lc lists have a gap of 250 frames.
+// neither a gap nor a path for its loops (Tables I and III). At 10 Hz, 100
+// frames are 10 s. The minimum path excludes a vehicle that waits at a traffic
+// light for longer. The kitti_lc lists have a gap of 250 frames.
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_LOOP_PAIRS_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_LOOP_PAIRS_H_

@@ -5,11 +5,11 @@
 // step. With the noise bound c, the noise is sigma = c / 3 unless it is varied:
 //
 //   outliers       50, 80, 90, 95, 98 and 99 % outliers in 1000 matches
-//   noise          sigma = c/12, c/6, c/3, 2c/3; 95 % outliers in 1000
-//   matches        100, 300, 1000, 3000 and 10000 of them, 95 % outliers
-//   degeneracy     1, 2, 3, 5 and 10 inliers of 50, no two outliers consistent
-//   quasi_inliers  20, 60 and 180 matches correct only in x and y, beside 20
-//                  inliers of 500
+//   noise          sigma = c/12, c/6, c/3, 2c/3; 95 % outliers in 1000 matches
+//   matches        100, 300, 1000, 3000 and 10000 matches, 95 % outliers
+//   degeneracy     1, 2, 3, 5 and 10 inliers of 50 matches; no outlier is
+//                  consistent with another match
+//   quasi_inliers  20, 60 and 180 quasi-inliers and 20 inliers of 500 matches
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_PROBLEM_FAMILIES_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_PROBLEM_FAMILIES_H_

@@ -49,7 +49,8 @@ std::optional<PairSelection> SelectPairs(
     const ProtocolOptions& options,
     std::string* error);
 
-// Parses bins such as "0-2,4-6" [m]. Nullopt with *error set if invalid.
+// Parses bins such as "0-2,4-6" [m]. Returns nullopt with *error set if the
+// text is invalid.
 std::optional<std::vector<DistanceBin>> ParseBins(const std::string& text,
                                                   std::string* error);
 

@@ -15,8 +15,7 @@ namespace quatro {
 // Called with the number of problems solved so far and the total.
 using Progress = std::function<void(int num_done, int num_problems)>;
 
-// Multiplied by the number of kinds of problems of any protocol, this fits an
-// int.
+// Small enough that the number of problems of any protocol fits into an int.
 inline constexpr int kMaxSeeds = 1'000'000;
 
 // The surrogates of truncated least squares over the residual, for the figure.
@@ -28,7 +27,7 @@ Table RunTimProtocol(int num_seeds, const Progress& progress);
 // 50 matches with 1, 2, 3 or 5 inliers: the paper's degeneracy.
 Table RunDegeneracyProtocol(int num_seeds, const Progress& progress);
 
-// 500 matches: 20 inliers, and 20, 60 or 180 correct in xy but not in z.
+// 500 matches with 20 inliers and 20, 60 or 180 quasi-inliers.
 Table RunQuasiInlierProtocol(int num_seeds, const Progress& progress);
 
 // Arc consensus on 1000 to `max_num_matches` matches, at 95 and 99 % outliers.

@@ -11,8 +11,8 @@
 
 namespace quatro {
 
-// Bits of a match's fate. An inlier of the pose need not be in the consistent
-// set, because the pose is evaluated on all matches.
+// Flags of a match, combined in its fate. An inlier of the pose need not be in
+// the consistent set, because the pose is evaluated on all matches.
 inline constexpr int kIsConsistent = 1;
 inline constexpr int kIsInlier = 2;
 

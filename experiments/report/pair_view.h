@@ -12,19 +12,20 @@
 //                    features (of the verdict), rung, candidates and stages
 //
 // `candidates` are at most five poses of the search, the best first: origin,
-// score, overlap, contradicted (share), likelihood (log ratio), and shift_m and
-// turn_deg from the answer, or null without one.
+// score, overlap, contradicted (share), likelihood (log ratio), and the
+// differences shift_m and turn_deg from the answer, null if there is none.
 //
 // `stages` is null for a method without matches or with other matches than the
 // first method. Otherwise it has
 //
-//   fate     one byte per match: bit 1 in the consistent set, bit 2 an inlier
+//   fate     one byte per match: 1 if it is in the consistent set, plus 2 if it
+//            is an inlier
 //   weight   one byte per match, 255 for 1: PoseSummary::match_weights; null if
 //            the method has none
-//   counts   matches, consistent, weighted (weight >= 0.5), inliers: of all
-//            matches, not only of those drawn
-//   right    the numbers of these that are correct, within the noise bound of
-//            the true pose; or null
+//   counts   numbers of matches, consistent, weighted (weight >= 0.5) and
+//            inliers among all matches, not only the drawn ones
+//   right    the same numbers among the matches that are within the noise bound
+//            of the true pose; null if there is no true pose
 //
 // Inliers need not be in the consistent set, because the pose is evaluated on
 // all matches. There are no times: the same run gives the same view, byte for
@@ -49,7 +50,8 @@ namespace quatro {
 struct ViewOptions {
   Eigen::Index max_points = 2000;  // Per cloud.
 
-  // At most three quarters of these are matches that some method kept.
+  // At most three quarters of these are matches that some method kept, unless
+  // there are too few other matches.
   Eigen::Index max_matches = 600;
 
   std::uint64_t seed = 0;
@@ -58,8 +60,8 @@ struct ViewOptions {
   bool IsValid(std::string* error) const;
 };
 
-// For this many pairs on one page of at most about 25 MB; fewer pairs get more
-// detail.
+// Options for this many pairs on one page of at most about 25 MB; fewer pairs
+// get more detail.
 ViewOptions MakeViewOptions(std::size_t num_pairs, std::size_t num_methods);
 
 struct ViewedPair {
@@ -69,7 +71,7 @@ struct ViewedPair {
   Points source;  // [m], each in its own frame.
   Points target;
   std::optional<Rigid3> true_target_from_source;
-  double noise_bound = 0.3;  // [m], of an inlier, on each axis.
+  double noise_bound = 0.3;  // On each axis [m].
 };
 
 struct MethodAnswer {

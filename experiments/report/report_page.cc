@@ -160,7 +160,7 @@ std::string ViewElement(const std::string& json, std::size_t index) {
          std::to_string(index) + "\">" + json + "</script>\n";
 }
 
-// Each mark occurs once and in order.
+// Replaces the marks of the template, each of which occurs once and in order.
 std::string FillTemplate(std::string_view text,
                          const std::string& title,
                          const std::string& data,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A run as one HTML file, which opens from disk without a network. The data are
-// JSON in elements that the browser does not parse; each 3D view is parsed when
-// its pair is opened.
+// A run as one HTML file, which can be opened from disk without a network. The
+// data are JSON in elements that the browser does not parse; each 3D view is
+// parsed when its pair is opened.
 
 #ifndef QUATRO_EXPERIMENTS_REPORT_REPORT_PAGE_H_
 #define QUATRO_EXPERIMENTS_REPORT_REPORT_PAGE_H_

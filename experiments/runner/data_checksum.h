@@ -3,7 +3,7 @@
 // Checksum that detects whether a run resumes with the data it started with.
 // Scans are many gigabytes, so only their names and sizes are used. Lists of
 // pairs and poses, which define the ground truth, are hashed. The checksum is
-// FNV-1a of 64 bits over
+// the 64-bit FNV-1a hash of
 //
 //   name 0 size 0   of each scan, in the order of names, with "missing" for
 //                   the size if there is no file,

@@ -22,8 +22,8 @@ struct Manifest {
   std::string start_time;  // UtcNow()
   std::uint64_t seed = 0;
 
-  // Name without dashes -> value: flags that affect the results, and the others
-  // (threads, output location).
+  // Name without dashes -> value. `flags` affect the results; `other_flags`,
+  // such as threads and output, do not.
   std::map<std::string, std::string> flags;
   std::map<std::string, std::string> other_flags;
 
@@ -48,8 +48,8 @@ std::optional<Manifest> ReadManifest(const std::string& path,
 // Returns whether both manifests give the same results: version, seed, flags
 // and the checksum of the data are equal. If not, *difference is the first
 // difference: "flag --preset was 'kitti', is 'paper'". Commit, compiler and
-// machine are not compared: whoever changes the code of an interrupted run is
-// responsible for it.
+// machine are not compared; users who change the code of an interrupted run are
+// responsible for the results.
 bool DecidesTheSame(const Manifest& was,
                     const Manifest& is,
                     std::string* difference);

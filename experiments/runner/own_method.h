@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// An estimator for matched points that is not in the registry of
+// An estimator for matched points that is not among the methods of
 // experiments/programs/methods.h. The program that runs an experiment supplies
-// it as a value.
+// it.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_OWN_METHOD_H_
 #define QUATRO_EXPERIMENTS_RUNNER_OWN_METHOD_H_
@@ -16,7 +16,7 @@
 namespace quatro {
 
 struct OwnMethod {
-  std::string name;         // Not in the registry; no comma.
+  std::string name;         // Differs from known methods; no comma.
   std::string description;  // One line.
 
   // Makes the estimator with noise bound, seed and threads of the options, and

@@ -39,18 +39,18 @@ struct PairExperiment {
   Manifest manifest;
 };
 
-// Checksum of the name, added yaw, true pose and INS of each task.
+// Checksum of the name, set, bin, added yaw, true pose and INS of each task.
 std::string ChecksumOf(const std::vector<PairTask>& tasks);
 
-// Runs or resumes the part of the experiment. Fails if the folder's manifest
-// belongs to other results.
+// Runs or resumes the part `shard` of the experiment. Fails if the manifest in
+// its folder has other inputs.
 RunEnd RunPairExperiment(const PairExperiment& experiment,
                          const RunControl& control,
                          std::string* error);
 
 // Merges the parts in the output folder, as if the experiment had been run at
-// once. Returns false and sets *error, which names the part or the first
-// missing pair; existing data is kept.
+// once. If a part is invalid or a pair is missing, returns false and names it
+// in *error; existing data is kept.
 bool MergeShards(const PairExperiment& experiment, std::string* error);
 
 // Writes tables/NAME.csv and .tex from the complete results.csv, and

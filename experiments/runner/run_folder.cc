@@ -40,7 +40,8 @@ bool WriteAt(int file, std::string_view bytes, std::uint64_t offset) {
   return true;
 }
 
-// Returns whether the folder contains only files of a run: its lock, or parts.
+// Whether the folder may be used for a run: it has a lock, or contains nothing
+// but parts.
 bool MayBeARun(const std::string& folder) {
   std::error_code status;
   if (fs::exists(fs::path(folder) / "run.lock", status)) return true;
@@ -53,7 +54,7 @@ bool MayBeARun(const std::string& folder) {
 
 }  // namespace
 
-// Names of pairs may not be valid file names.
+// Uses a hash, because names of pairs need not be valid file names.
 std::string ViewPath(const std::string& folder, const std::string& pair) {
   char name[32];
   std::snprintf(name,
@@ -135,7 +136,7 @@ bool RunFolder::ReadRows(const std::vector<std::string>& methods,
     return false;
   }
 
-  // An incomplete pair after a kill is at the end.
+  // After a kill, the last pair may be incomplete.
   end_ = header.size();
   std::uint64_t at = end_;
   int line_number = 2;
@@ -201,7 +202,7 @@ bool RunFolder::Append(const std::vector<PairResult>& results,
     text += FormatResultCsv(result) + "\n";
   if (!WriteAt(file_, text, end_) || fdatasync(file_) != 0) {
     *error = WhyNot(path_ + "/rows.csv");
-    // The next start would remove partly written lines as well.
+    // Removes partly written lines. If this fails, the next start does it.
     [[maybe_unused]] const int ignored =
         ftruncate(file_, static_cast<off_t>(end_));
     return false;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Runs several methods on matched points with a known pose, generated once; the
-// equivalent of experiments/runner/run_task.h for scans. There are no front end
-// and no geometry, so a verdict uses only the matches.
+// Runs several methods on matched points with a known pose, which are generated
+// once. For scans, see experiments/runner/run_task.h. There is no front end and
+// no geometry, so the verdict uses only the matches.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_RUN_PROBLEM_H_
 #define QUATRO_EXPERIMENTS_RUNNER_RUN_PROBLEM_H_

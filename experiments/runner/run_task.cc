@@ -102,7 +102,8 @@ TaskOutcome RunTask(const PairTask& task, const RunMethods& methods) {
   std::optional<PointCloud> target;
   if (source) target = ReadCloud(task.target, methods.reading, &error);
   if (!target) {
-    // Not the scan's fault: the run ends here, and can be resumed with more.
+    // The scan is not at fault. The run ends, and can be resumed with more
+    // memory.
     if (error.ends_with("fit in memory")) throw std::bad_alloc();
     return AllUnreadable(blank, methods.names, error);
   }

@@ -21,7 +21,7 @@
 namespace quatro {
 
 struct RunMethods {
-  // Names of experiments/programs/methods.h except odometries, or of `own`.
+  // Names from experiments/programs/methods.h, except odometries, or `own`.
   std::vector<std::string> names;
   std::vector<OwnMethod> own;
 
@@ -34,7 +34,8 @@ struct RunMethods {
 
   ReadCloudOptions reading;
 
-  // Options of what tasks keep for the report, with the seed above.
+  // Options of the 3D views that tasks keep for the report; their seed is that
+  // of `options`.
   ViewOptions view = {};
 
   // How a method that needs an INS uses the pair's INS. A pair without INS is
@@ -59,7 +60,7 @@ struct TaskOutcome {
   std::vector<PairResult> results;
 
   // The reason if a scan cannot be read or used, in which case all results are
-  // unreadable. Empty otherwise.
+  // unreadable, or if a method reports an error. Empty otherwise.
   std::string note;
 
   // JSON of experiments/report/pair_view.h with all methods; empty unless the

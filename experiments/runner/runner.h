@@ -39,14 +39,14 @@ enum class RunEnd {
 };
 
 struct RunControl {
-  // The number of pairs at a time; each uses options.num_threads.
+  // The number of pairs that run at once, each with options.num_threads.
   int num_workers = 1;
 
   // Called before each pair.
   std::function<bool()> should_stop;
 
-  // Called after each pair, where pairs completed earlier count as done; never
-  // called from two threads at once.
+  // Called after each pair, never from two threads at once. `num_done` includes
+  // pairs that were completed earlier.
   std::function<void(int num_done, int num_tasks)> progress;
 };
 

@@ -8,7 +8,10 @@
 DATA is written by experiments/programs/picture.cc; quatro_register --picture calls this script.
 """
 import json
+import signal
 import sys
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # No traceback on Ctrl-C.
 
 import matplotlib
 

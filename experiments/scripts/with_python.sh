@@ -4,6 +4,7 @@
 #   experiments/scripts/with_python.sh MODULE[,MODULE] SCRIPT [ARGS...]
 # Exit code: the script's; 2 if no Python has the modules.
 set -euo pipefail
+trap 'exit 130' HUP INT TERM
 
 if (($# < 2)) || [[ ! $1 =~ ^[A-Za-z_][A-Za-z0-9_.]*(,[A-Za-z_][A-Za-z0-9_.]*)*$ ]]; then
   echo "usage: $0 MODULE[,MODULE] SCRIPT [ARGS...]" >&2

@@ -19,7 +19,8 @@ namespace quatro {
 
 class Building {
  public:
-  // Corridors along y, by ascending x, and along x, by ascending y.
+  // `num_corridors_x` corridors run along y, by ascending x, and
+  // `num_corridors_y` along x, by ascending y.
   Building(uint64_t seed, int num_corridors_x, int num_corridors_y);
 
   // The intersection of two corridor axes [m].

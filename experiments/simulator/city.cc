@@ -30,7 +30,7 @@ double DistanceToClosest(const std::vector<double>& axes, double x) {
   return distance;
 }
 
-// Fine near the curbs, coarse inside the blocks.
+// Grid lines of the ground, fine near the curbs and coarse inside the blocks.
 std::vector<double> GridLines(const std::vector<double>& axes) {
   std::vector<double> lines;
   for (double x = axes.front() - kOutskirts; x < axes.back() + kOutskirts;) {

@@ -9,7 +9,7 @@
 //   x = u + A sin(k v + a),   y = v + A sin(k u + b),   z = h(u, v),      (1)
 //
 // so that streets curve and do not cross at exactly right angles. h contains
-// hills, undulations of the size of a car, curbs, sidewalks and rough gardens.
+// hills, undulations of 13 to 55 m, curbs, sidewalks and rough gardens.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_CITY_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_CITY_H_
@@ -28,7 +28,7 @@ struct CityOptions {
   uint64_t seed = 1;
   int num_streets_u = 3;    // Streets that run along v, by ascending u.
   int num_streets_v = 3;    // Streets that run along u, by ascending v.
-  double block = 90.0;      // Approximate distance of streets [m].
+  double block = 90.0;      // Approximate distance between streets [m].
   double bend = 6.0;        // A of (1) [m].
   double max_grade = 0.05;  // Steepest hill [rad].
   double terrace = 0.3;     // Share of blocks without gaps.
@@ -50,7 +50,7 @@ class City {
   Eigen::Vector3d SurfacePoint(const Eigen::Vector2d& uv) const;  // (1)
 
   // The frame of a car that drives along `direction` of the plan: origin on the
-  // ground, x ahead, z the ground's normal over the footprint of the car.
+  // ground, x ahead, z normal to the ground under the car.
   Rigid3 WorldFromCar(const Eigen::Vector2d& uv,
                       const Eigen::Vector2d& direction) const;
 

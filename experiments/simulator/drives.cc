@@ -32,7 +32,7 @@ constexpr double kCartHeight = 0.9;  // [m]
 struct Plan {
   const char* name;
   int num_streets_u, num_streets_v;
-  double block, max_grade, terrace;  // [m], [rad], share.
+  double block, max_grade, terrace;  // [m], [rad], 0 .. 1.
   const char* route;                 // Crossings: two digits, u and v.
 };
 

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Drives that replace sequences of KITTI odometry and a building of NAVER LABS,
-// by name:
+// Simulated drives that replace sequences of KITTI odometry and a building of
+// NAVER LABS, by name:
 //
-//   00, 05  many loops, both ways        02     long, hilly, between gaps
-//   06      one long block, same way     07     one small block
-//   08      two blocks, the other way    hd_b1  halls and corridors, VLP-16
+//   00, 05  many loops, in both directions
+//   02      long, hilly, with many gaps between houses
+//   06      one long block, revisited in the same direction
+//   07      one small block
+//   08      two blocks, revisited in the opposite direction
+//   hd_b1   halls and corridors, VLP-16
 //
-// They are simulated, so they are only as realistic as the simulator (measured
-// by experiments/scripts/compare_kitti.py). They share with their namesakes the
-// shape of the path. They are written in the layout of kitti_layout.h or
-// naver_layout.h, with the readings of an INS.
+// Their paths are similar in shape to those of their namesakes. They are only
+// as realistic as the simulator (measured by
+// experiments/scripts/compare_kitti.py). They are written in the layout of
+// kitti_layout.h or naver_layout.h, with the readings of an INS.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_DRIVES_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_DRIVES_H_
@@ -33,17 +36,18 @@ struct DriveOptions {
   std::string name = "00";
   uint64_t seed = 1;            // Seed of world, noise and traffic.
   int num_frames = 0;           // 0: to the end of the path.
-  double frame_spacing = 1.0;   // [m]; at 10 Hz.
-  std::string sensor = "auto";  // See sensors.h; auto: by the name.
+  double frame_spacing = 1.0;   // [m], at 10 Hz.
+  std::string sensor = "auto";  // See sensors.h; auto: by the drive.
 
-  // If true, points are where the moving sensor saw them, without correction.
+  // If true, the sensor moves during a scan, and points are not corrected for
+  // it.
   bool has_sweep_motion = false;
 
   int num_moving_cars = 15;    // In a city.
   double tilt_sigma = 0.0052;  // Roll and pitch (suspension) [rad].
 
-  // Errors of the INS' roll, pitch and yaw: noise per frame, and a constant
-  // part per drive [rad].
+  // Errors of the INS in roll, pitch and yaw: noise per frame, and a constant
+  // bias per drive [rad].
   double ins_sigma = 0.0009;
   double ins_bias_sigma = 0.005;
 

@@ -20,8 +20,8 @@ void AddFurniture(const Rigid3& world_from_furniture,
                   Random& random,
                   Scene& scene);
 
-// Low and narrow objects at a wall whose face is the plane y = 0: a bench, a
-// bin, a cabinet, a plant, a fire extinguisher. [m]
+// A low and narrow object at a wall whose face is the plane y = 0: a bench, a
+// bin, a cabinet, a plant or a fire extinguisher. [m]
 void AddThingAtWall(const Rigid3& world_from_wall,
                     Random& random,
                     Scene& scene);

@@ -77,7 +77,7 @@ struct Echo {
   float intensity = -1.0f;  // Negative: no echo.
 };
 
-// The pose of the sensor after this fraction of a sweep.
+// The pose of the sensor after this fraction of a frame.
 Rigid3 PoseAt(const Rigid3& world_from_sensor,
               const Sweep& sweep,
               double fraction) {
@@ -106,7 +106,7 @@ RTCRayHit MakeRay(const Vector3d& from,
   return hit;
 }
 
-// The points of the rays that came back.
+// The points of the rays with an echo.
 PointCloud MakeCloud(std::vector<Echo> echoes) {
   std::erase_if(echoes, [](const Echo& echo) { return echo.intensity < 0.0f; });
   PointCloud cloud;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // A lidar or a depth camera during one frame, stationary or moving uniformly.
 //
-// The ray d of a beam and a column (ray_pattern.h) measures d (r + n), with the
-// distance r to the first triangle on it and
+// The ray d of a beam and a column (ray_pattern.h) measures the point
+// d (r + n), with the distance r to the first triangle that it hits and
 //
 //   n ~ N(0, sigma^2),   sigma = range_sigma + range_sigma_growth r^2.     (1)
 //
@@ -29,13 +29,13 @@
 #include "features/base/rigid3.h"
 #include "features/io/point_cloud.h"
 
-// Types of Embree.
+// Embree's types.
 struct RTCDeviceTy;
 struct RTCSceneTy;
 
 namespace quatro {
 
-// Between two frames of a sequence [s].
+// The time between two frames of a sequence [s].
 inline constexpr double kFramePeriod = 0.1;
 
 // The beams of a Velodyne HDL-64E, top to bottom: 32 from +2 to -8.33 deg in
@@ -52,27 +52,27 @@ struct LidarOptions : RayPattern {
   double min_range = 0.9;           // [m]
   double max_range = 120.0;         // [m]
   double range_sigma = 0.02;        // [m]
-  double range_sigma_growth = 0.0;  // As of stereo and patterns [1/m].
-  double dropout_rate = 0.05;       // Probability of missing any echo.
+  double range_sigma_growth = 0.0;  // As for depth cameras [1/m].
+  double dropout_rate = 0.05;       // Probability of a miss at any range.
 
   bool IsValid(std::string* error) const;
 };
 
-// Identifies a scan; only its random part depends on this.
+// Identifies a scan. Only noise, phase and misses depend on it.
 struct ScanId {
   uint64_t seed = 1;
   uint64_t frame = 0;
 };
 
 // The motion of the sensor during one frame. Points are in the frame of the
-// sensor at their own time, as measured: a ray at the fraction f is seen from
+// sensor at the time of their ray. A ray at the fraction f is cast from
 //
 //   R exp((f - 1/2) turn),  t + (f - 1/2) velocity,                        (3)
 //
 // where (R, t) is the pose in the middle of the frame.
 struct Sweep {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // In the world [m].
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // Turn of the sensor [rad].
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();      // Rotation vector [rad].
 
   bool IsStill() const { return velocity.isZero(0.0) && turn.isZero(0.0); }
 };
@@ -89,7 +89,7 @@ class LidarScene {
 
   // Points in the sensor frame (x forward, y left, z up) with intensities in
   // [0, 1], beam by beam. `options` must be valid; num_threads 0 uses all
-  // cores. `others`, if given, is in the same world.
+  // cores. `others`, if given, contains more objects of the same world.
   PointCloud Scan(const Rigid3& world_from_sensor,
                   const LidarOptions& options,
                   const ScanId& id,

@@ -89,7 +89,8 @@ std::string FormatRow(const PairSetOptions& set,
   return row + "\n";
 }
 
-// All inputs of the pairs, which therefore excludes their number.
+// All inputs of the pairs. The number of pairs is left out, because more can be
+// added later.
 nlohmann::json Describe(const PairSetOptions& set) {
   return {{"world", WorldName(set.world)},
           {"seed", set.seed},

@@ -5,17 +5,17 @@
 //   street/000000_source.bin ...       float32 x y z intensity, sensor frame
 //   pairs.csv            set,source,target,tx,ty,tz,qx,qy,qz,qw,distance_m,
 //                        yaw_deg,rollpitch_deg, then the columns below
-//   pairs_negative.csv   pairs without overlap: the same without a pose
-//   rows/                the line of each pair; it exists once its scans do
+//   pairs_negative.csv   pairs without overlap: the same columns without a pose
+//   rows/                the line of each pair, written after its scans
 //   settings.json        the options of the sets
 //
 // Both lists continue with the columns
 //
 //   world,variant,sensor,seed,apart   the simulation; apart: other_seed,
-//                                     far_apart or other_floor of a negative
-//                                     pair. other_floor is in a set
-//                                     WORLD_floor: walls and pillars are alike,
-//                                     so a pose does fit
+//                                     far_apart or other_floor for a pair
+//                                     without overlap. The set of other_floor
+//                                     is WORLD_floor: walls and pillars are the
+//                                     same, so that a pose fits
 //   source_rpy_deg,target_rpy_deg     "roll,pitch,yaw" of the sensors as an INS
 //                                     measures them, for the flags of that name
 //   ins_std_deg                       of each of these angles

@@ -55,7 +55,8 @@ std::string OtherWorld(const PairSetOptions& set,
   return "other_seed";
 }
 
-// The largest yaw of the source: that of the options, or half of a narrow view.
+// The largest yaw of the source: that of the options, or half of a narrow field
+// of view.
 double MaxYaw(const PairSetOptions& options) {
   std::string ignored;
   const bool is_usual = options.sensor == "auto";
@@ -134,7 +135,7 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
     pair.seed = other_options.seed;
     other = MakeWorld(other_options);
   }
-  // Both worlds are parts of one long street.
+  // If the pair is far_apart, both places are in `other`, one long street.
   const World& of_source = other ? *other : world;
   const World& of_target = pair.apart == "far_apart" ? *other : world;
   pair.sensor = options.sensor == "auto" ? of_target.sensor : options.sensor;

@@ -24,26 +24,27 @@ struct PairSetOptions {
   int num_pairs = 100;
   uint64_t seed = 1;
 
-  // Ranges of uniform distributions: the distance of the places along the path
-  // [m]; the yaw of the source, in either direction [rad], at most half of the
-  // width of a sensor with a narrow view; for hills, the tilt [rad].
+  // Ranges of uniform distributions: the distance between the places along the
+  // path [m]; the yaw of the source in either direction [rad], limited to half
+  // the field of view of a sensor that does not see all around; for hills, the
+  // tilt [rad].
   double min_distance = 0.0;
   double max_distance = 30.0;
   double max_yaw = 3.15;
   double min_tilt = 0.035;
   double max_tilt = 0.26;
 
-  // If true, the scans do not overlap and come from worlds that look alike.
+  // If true, the scans do not overlap and come from worlds of the same kind.
   bool no_overlap = false;
 
-  // For corridors; negative: by the seed (worlds.h).
+  // For corridors; negative: chosen by the seed (worlds.h).
   int num_features = -1;
 
   // A sensor of sensors.h, or `auto` for the sensor of the world.
   std::string sensor = "auto";
 
   double tilt_sigma = 0.0052;  // Roll and pitch (suspension) [rad].
-  double ins_sigma = 0.0087;   // INS' roll, pitch and yaw [rad].
+  double ins_sigma = 0.0087;   // INS error in roll, pitch and yaw [rad].
 
   bool IsValid(std::string* error) const;
 
@@ -76,7 +77,8 @@ std::optional<SetPair> SimulateSetPair(const PairSetOptions& options,
                                        std::string* error);
 
 // Sets for calibrating a verdict: `scale` times 750 pairs with overlap (250
-// streets, 100 crossings, 100 of each other kind of world) and as many without.
+// streets and 100 each of crossings, hills, corridors, halls and symmetric
+// worlds) and as many without.
 std::vector<PairSetOptions> CalibrationSets(uint64_t seed, double scale);
 
 }  // namespace quatro

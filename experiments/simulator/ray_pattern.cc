@@ -9,7 +9,7 @@
 namespace quatro {
 namespace {
 
-// Turns of the prisms a frame; whole numbers in 100 frames.
+// Revolutions of the prisms per frame; whole numbers in 100 frames.
 constexpr double kTurnsOfFirst = 12.16;
 constexpr double kTurnsOfSecond = -7.77;
 constexpr double kFramesUntilRepeated = 100.0;

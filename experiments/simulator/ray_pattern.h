@@ -8,22 +8,23 @@
 //
 //               d = (cos e cos a, cos e sin a, sin e)                      (1)
 //
-//   rosette   two prisms that turn against each other, at 12.16 and 7.77 turns
-//             a frame, deflect the beams within an ellipse; (1) with
+//   rosette   two counter-rotating prisms, at 12.16 and 7.77 revolutions per
+//             frame, deflect the beams within an ellipse; (1) with
 //
-//               a = width / 2 (cos p + cos q) / 2,
+//               a = width / 2 (cos p + cos q) / 2 + offset[b],
 //               e = height / 2 (sin p + sin q) / 2 + elevation[b],         (2)
 //               p = 2 pi 12.16 (f + s), q = -2 pi 7.77 (f + s).
 //
-//             f = (c + 1/2) / n, and the start s is one of 100 frames, after
-//             which the pattern repeats.
-//   pinhole   a camera whose pixels are all seen at once, f = 1/2: on the plane
-//             x = 1, columns are even within the width and beams are rows,
+//             where f = (c + 1/2) / n, and the start s is one of 100 frames,
+//             after which the pattern repeats.
+//   pinhole   a camera that sees all pixels at once, f = 1/2. On the plane
+//             x = 1, columns are evenly spaced within the width and beams are
+//             rows,
 //
 //               d ~ (1, tan(width / 2) (1 - 2 (c + 1/2) / n), tan e).      (3)
 //
-// Source of the turns: the prisms of Livox' Mid-40, at 7294 and -4664 turns a
-// minute, frames at 10 Hz.
+// Source of the speeds: the prisms of the Livox Mid-40, at 7294 and -4664
+// revolutions per minute, with frames at 10 Hz.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_RAY_PATTERN_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_RAY_PATTERN_H_
@@ -36,7 +37,7 @@
 
 namespace quatro {
 
-// Which of the equations above.
+// Selects one of the equations above.
 enum class ScanPattern { kSpinning, kRosette, kPinhole };
 
 struct RayPattern {
@@ -58,8 +59,8 @@ struct Ray {
   double fraction;
 };
 
-// `random` in [0, 1) is that of the frame: its phase, and the start of a
-// rosette. The pattern must be valid.
+// `random` in [0, 1) is a random number of the frame. It determines the phase
+// of a spinning sensor and the start of a rosette. The pattern must be valid.
 Ray RayOf(const RayPattern& pattern,
           std::size_t beam,
           std::size_t column,

@@ -56,7 +56,8 @@ bool RoadOptions::IsValid(std::string* error) const {
 Road::Road(const RoadOptions& options) : options_(options) {
   Random random(2 * options.seed);
   const auto draw_phase = [&] { return Uniform(random, 0.0, 2.0 * M_PI); };
-  // Amplitude [rad] times frequency [rad/m] sums to less than 1 / (100 m).
+  // The sum of amplitude [rad] times frequency [rad/m], which limits the
+  // curvature, is less than 1 / (100 m).
   for (const auto& [amplitude, length] :
        {std::pair(0.3, 320.0), std::pair(0.04, 110.0)}) {
     const double scale = Uniform(random, 0.4, 1.0);

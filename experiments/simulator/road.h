@@ -27,27 +27,27 @@
 
 namespace quatro {
 
-// Length of street before the first and after the last pose [m]; hardly any
-// echo comes from farther away.
+// Length of the street before the first and after the last pose [m]; few echoes
+// come from farther away.
 inline constexpr double kMargin = 90.0;
 
 struct RoadOptions {
   uint64_t seed = 1;
   double length = 250.0;     // [m]
   double slope = 0.0;        // Slope of the axis [rad].
-  double undulation = 0.05;  // Amplitude of the 40 m sinusoids [m].
+  double undulation = 0.05;  // Amplitude per 40 m of wavelength [m].
   double half_width = 4.5;   // Roadway with parked cars [m].
 
   // A crest (climb < 0) or a sag: the change of grade between curve_begin and
-  // curve_end [m], and the change of bank, positive for falling to the right
+  // curve_end [m], and the change of bank, positive if the right side is lower
   // [rad].
   double curve_begin = 0.0;
   double curve_end = 1.0;
   double curve_climb = 0.0;
   double curve_bank = 0.0;
 
-  // Side streets leave on both sides at this place [m], and no others within 30
-  // m; negative: the seed places them.
+  // Side streets on both sides at this place [m], without others within 30 m;
+  // negative: the seed places them.
   double crossing = -1.0;
 
   // Standard deviation of a car's roll and pitch on its suspension [rad].

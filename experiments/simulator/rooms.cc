@@ -174,7 +174,7 @@ class HallBuilder {
   }
 
   Scene Build() {
-    constexpr double kPassages = 12.0;  // Exceeds the deepest recess [m].
+    constexpr double kPassages = 12.0;  // More than the deepest recess [m].
     Scene whole;
     for (const auto& [z, shade] :
          {std::pair(0.0, 0.35f), std::pair(options_.height, 0.7f)}) {
@@ -194,7 +194,7 @@ class HallBuilder {
   }
 
  private:
-  // Exactly one of two points that the half turn swaps is mine.
+  // True for exactly one of two points that the half turn swaps.
   bool IsMine(double x, double y) const {
     return !options_.has_half_turn || x > 0.0 || (x == 0.0 && y > 0.0);
   }

@@ -9,12 +9,12 @@
 //   room       a room of a few meters with furniture along its walls
 //
 // The world frame has its origin on the floor in the middle, x along the longer
-// side and z up. A place with a symmetry S looks the same from a sensor at T as
-// from one at S T:
+// side and z up. A place with a symmetry S looks the same from a sensor at T
+// and from a sensor at S T:
 //
 //   S { points of the scene } = { points of the scene }.                   (1)
 //
-// For a shift, (1) does not include the far ends.
+// For a shift, (1) does not hold at the far ends.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_ROOMS_H_
 #define QUATRO_EXPERIMENTS_SIMULATOR_ROOMS_H_
@@ -41,9 +41,9 @@ struct RoomOptions {
 struct CorridorOptions : RoomOptions {
   bool is_outdoors = false;  // Walls beside a road, no ceiling.
 
-  // Doors, niches, pilasters, side passages, lamps and objects along the walls:
-  // everything that distinguishes places along the corridor. With 0, only its
-  // ends do.
+  // The number of doors, niches, pilasters, side passages, lamps and objects
+  // along the walls, which distinguish places along the corridor. With 0, only
+  // its ends do.
   int num_features = 20;
 
   // The period at which the features repeat [m]; 0: they do not repeat.
@@ -59,16 +59,18 @@ struct HallOptions : RoomOptions {
 
 Scene MakeHall(const HallOptions& options);
 
-// Furniture at the walls alone, so that the middle is free. No symmetry.
+// A room with furniture only at the walls, so that the middle is free. It has
+// no symmetry.
 Scene MakeRoom(const RoomOptions& options);
 
-// S: shifts by spacing.x() along x and by spacing.y() along y, and R_z(pi).
-// `height` is that of the ceiling; there is a pillar at the origin.
+// The symmetries S are shifts by spacing.x() along x and by spacing.y() along
+// y, and R_z(pi). `height` is that of the ceiling; there is a pillar at the
+// origin.
 Scene MakeColonnade(uint64_t seed,
                     double height,
                     const Eigen::Vector2d& spacing);
 
-// S: shifts by `period` along x, and R_z(pi).
+// The symmetries S are shifts by `period` along x, and R_z(pi).
 Scene MakeTerrace(uint64_t seed, double period);
 
 // Adds crates, posts and bushes within 25 m of the origin, at least 2 m from

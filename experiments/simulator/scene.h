@@ -3,7 +3,7 @@
 // The input of a simulated sensor: opaque triangles, each with a reflectance.
 //
 // Shapes are added in their own frame, `world_from_shape`, with z up. Winding
-// and overlaps do not matter to the sensor. Random details are drawn from a
+// order and overlaps do not affect the sensor. Random details are drawn from a
 // Random that the caller seeds, so the same seed gives the same scene.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_SCENE_H_
@@ -87,8 +87,8 @@ struct Scene {
                    double z_max,
                    float reflectance);
 
-  // A wall in the plane y = 0 seen from +y, from left to right and bottom to
-  // top [m]. Patches are joined to it by their reveals; if patches overlap, the
+  // A wall in the plane y = 0, whose face is toward +y, from left to right and
+  // bottom to top [m]. Reveals join the patches to it; if patches overlap, the
   // last one counts.
   void AddWall(const Rigid3& world_from_wall,
                const WallPatch& wall,

@@ -29,7 +29,7 @@ LidarOptions MakeVlp16() {
   return options;
 }
 
-// Staggered in azimuth by fours [deg].
+// The beams are staggered in azimuth in groups of four [deg].
 LidarOptions MakeOs1(double top_deg,
                      int num_beams,
                      const std::array<double, 4>& stagger) {

@@ -29,7 +29,9 @@ bool MayReplace(const fs::path& output, bool overwrite, std::string* error) {
        entry.increment(code)) {
     const std::string name = entry->path().filename().string();
     if (!overwrite) {
-      *error = output.string() + ": folder is not empty";
+      *error =
+          output.string() +
+          ": folder is not empty; name another, or replace it by --overwrite";
       return false;
     }
     if (!known.contains(name)) {

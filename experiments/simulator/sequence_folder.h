@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A folder that is written next to its final place and renamed when it is
+// A folder that is written beside its final place and renamed when it is
 // complete. An incomplete folder is removed.
 
 #ifndef QUATRO_EXPERIMENTS_SIMULATOR_SEQUENCE_FOLDER_H_

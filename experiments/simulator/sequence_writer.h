@@ -32,8 +32,8 @@ class SequenceWriter {
   SequenceWriter(const SequenceWriter&) = delete;
   SequenceWriter& operator=(const SequenceWriter&) = delete;
 
-  // Adds the next frame at `time` [s]. `reading` may be nullptr, for all
-  // frames.
+  // Adds the next frame at `time` [s]. `reading` is nullptr for all frames or
+  // for none.
   virtual bool Add(const PointCloud& cloud,
                    const Rigid3& world_from_sensor,
                    double time,

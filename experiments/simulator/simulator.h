@@ -61,7 +61,7 @@ struct SimulateSequenceOptions {
 // Called after each frame.
 using SimulateProgress = std::function<void(int num_done, int num_frames)>;
 
-// Writes the sequence next to `output_dir` and renames it when it is complete.
+// Writes the sequence beside `output_dir` and renames it when it is complete.
 // Returns false and sets *error if the options are invalid, if the folder is
 // not empty (with overwrite: contains anything but a sequence), or if it cannot
 // be written. `progress` may be empty.

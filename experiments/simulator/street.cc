@@ -58,7 +58,7 @@ class StreetBuilder {
   }
   bool Chance(double probability) { return random_.Uniform() < probability; }
 
-  // A frame on the ground with y toward the axis.
+  // A frame on the ground whose y axis points toward the axis of the street.
   Rigid3 Facing(double s, double e, int side) const {
     return road_.WorldFromUpright(s, side * e) * Turned(side > 0 ? M_PI : 0.0);
   }

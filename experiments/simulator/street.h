@@ -23,12 +23,12 @@ Scene MakeStreet(const Road& road);
 struct StreetSides {
   double reach = 58.0;        // Largest |d| with objects [m].
   double corner = 1.0;        // Side street's curb to a house [m].
-  double terrace = 0.3;       // Share of blocks without gaps.
+  double terrace = 0.3;       // Share of blocks without gaps between houses.
   bool clear_mouths = false;  // No lamps and signs at side streets.
   double deeper = 0.0;        // Extra depth of front gardens [m].
   double gap = 9.0;           // Largest gap between two houses [m].
   double park = 0.13;         // Share of lots without a house.
-  double plants = 0.4;        // Maximum per meter of front garden.
+  double plants = 0.4;        // Largest number per meter of front garden.
 };
 
 // The objects on both sides of a street, without ground and side streets.

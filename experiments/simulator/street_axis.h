@@ -37,7 +37,7 @@ class StreetAxis {
   // The point in the world.
   virtual Eigen::Vector3d SurfacePoint(double s, double d) const = 0;
 
-  // Within `margin` [m] of a side street's edges.
+  // Whether s is in a side street or within `margin` [m] of its edges.
   bool IsInSideStreet(double s, int side, double margin) const {
     return std::any_of(side_streets().begin(),
                        side_streets().end(),
@@ -48,13 +48,14 @@ class StreetAxis {
                        });
   }
 
-  // Origin on the ground, x along the street, z opposite to gravity.
+  // A frame with its origin on the ground, x along the street and z opposite to
+  // gravity.
   Rigid3 WorldFromUpright(double s, double d) const {
     return {RotationZ(Heading(s)), SurfacePoint(s, d)};
   }
 
-  // Origin on the ground, z its normal over the footprint of a car, x along the
-  // street rotated by `yaw` [rad].
+  // A frame with its origin on the ground, z normal to the ground under a car,
+  // and x along the street, rotated by `yaw` [rad].
   Rigid3 WorldFromGround(double s, double d, double yaw) const {
     constexpr double kHalfBase = 1.35,
                      kHalfTrack = 0.75;  // Half a car's base and track [m].

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Matched points with a known motion on the ground, by seed: the families on
-// which estimators are compared.
+// Matched points with a known motion on the ground, drawn by a seed. Estimators
+// are compared on these families of problems.
 //
 //   q_i = R_z(yaw) p_i + t + noise     for inliers,
 //
@@ -26,33 +26,33 @@ struct MatchedProblem {
   Rigid3 true_target_from_source;
 };
 
-// The share `outlier_ratio` of the matches has a target drawn anywhere. The
-// inliers come last.
+// For the share `outlier_ratio` of the matches, the target is a random point.
+// The inliers come last.
 MatchedProblem MakeOutlierProblem(Eigen::Index num_matches,
                                   double outlier_ratio,
                                   double noise_sigma,
                                   std::uint64_t seed);
 
 // Similar to a hard pair after pruning: `num_true` inliers among gross
-// outliers. No two outliers, and no outlier and inlier, have equal lengths
-// within `consistency_bound` [m].
+// outliers. No outlier is consistent with another match within
+// `consistency_bound` [m].
 MatchedProblem MakeDegenerateProblem(Eigen::Index num_matches,
                                      Eigen::Index num_true,
                                      double noise_sigma,
                                      double consistency_bound,
                                      std::uint64_t seed);
 
-// `num_quasi` matches are correct in x and y and 0.5-3 m off in z, up or down;
-// `num_true` are inliers, and the others are drawn anywhere.
+// `num_true` matches are inliers, `num_quasi` are quasi-inliers, 0.5-3 m too
+// high or too low, and the targets of the others are random points.
 MatchedProblem MakeQuasiInlierProblem(Eigen::Index num_matches,
                                       Eigen::Index num_true,
                                       Eigen::Index num_quasi,
                                       double noise_sigma,
                                       std::uint64_t seed);
 
-// TIMs as after a test of their lengths: source and target have equal lengths
-// within the noise, and the share `outlier_ratio` of them is rotated randomly.
-// The true rotation is a yaw; there is no translation.
+// TIMs that have passed a test of their lengths: source and target have equal
+// lengths within the noise. The share `outlier_ratio` of the TIMs is rotated by
+// random yaws. The true rotation is a yaw; there is no translation.
 MatchedProblem MakeTimProblem(Eigen::Index num_tims,
                               double outlier_ratio,
                               double noise_sigma,

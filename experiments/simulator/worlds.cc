@@ -33,7 +33,7 @@ constexpr double kMaxDistanceInRoom = 3.0;  // [m]
 constexpr double kOnCar = Road::kSensorHeight;
 constexpr double kOnCart = 0.9;  // [m]
 
-// On a level floor, with random roll and pitch.
+// The pose of a sensor above a level floor, with random roll and pitch.
 Rigid3 OnFloor(const Vector2d& xy,
                double height,
                double yaw,
@@ -80,7 +80,7 @@ World MakeCrossingWorld(const WorldOptions& options, Random& random) {
                  turns ? "turned" : "passed",
                  "hdl64e"};
   if (turns) {
-    // At the requested distance, by the Pythagorean theorem.
+    // The straight distance between the places is `options.distance`.
     const double side = random.Uniform() < 0.5 ? 1.0 : -1.0;
     const double away =
         std::sqrt(options.distance * options.distance - before * before);
@@ -127,7 +127,7 @@ std::string SensorOfCart(Random& random) {
   return random.Uniform() < 0.5 ? "vlp16" : "os1_64";
 }
 
-// Both on the floor, `options.distance` apart along x, centered on `middle`.
+// Places both sensors `options.distance` apart along x, centered on `middle`.
 void PlaceAlongX(const WorldOptions& options,
                  double middle,
                  double max_y,
@@ -209,8 +209,8 @@ std::pair<Vector2d, Vector2d> DrawPlaces(const Vector2d& half,
   }
 }
 
-// Adds objects that slightly break the symmetry, within max_y of the x axis; in
-// half of the worlds, none.
+// In half of the worlds, adds a few objects within max_y of the x axis, which
+// break the symmetry slightly.
 void AddOddThingsTo(double max_y, Random& random, World* world) {
   if (random.Uniform() < 0.5) return;
   const auto num_things = 1 + static_cast<int>(random.Below(4));
@@ -237,7 +237,8 @@ World MakeHallWorld(const WorldOptions& options,
   hall.height = Uniform(random, 3.0, 8.0);
   const Vector2d half =
       Vector2d(hall.length, hall.width) / 2.0 - Vector2d::Constant(kFromWall);
-  // Near the center of a half turn, the twin places are equally far away.
+  // With a half turn, the target is near the center, so that the source and its
+  // twin are about equally far from it.
   const Vector2d reach = has_half_turn ? Vector2d(0.1 * half) : half;
   const auto [source, target] =
       DrawPlaces(half, reach, options.distance, random);

@@ -5,18 +5,18 @@
 //   true_target_from_source = world_from_target^-1 world_from_source.       (1)
 //
 //   street     a residential street, with both places along it (street.h)
-//   crossing   four streets; the source has turned into another one, or has
-//              passed the crossing
+//   crossing   where four streets meet; the source is in another street than
+//              the target, or in the same street beyond the crossing
 //   hill       a street over a crest or through a sag, so that the two cars
 //              are tilted relative to each other
 //   corridor   in a building or between walls beside a road, with few or no
 //              features that distinguish places along it (rooms.h)
 //   hall       a large room with pillars and furniture
-//   room       a room of a few meters with a depth camera held by hand, which
-//              looks from near one wall across the room; at most 3 m
+//   room       a room of a few meters with a handheld depth camera, which looks
+//              from near one wall across the room; distances up to 3 m
 //   symmetric  a hall with a half turn, a colonnade, or a periodic corridor or
-//              terrace, exact except for a few objects in every other world.
-//              With its symmetry S, the scans also fit at
+//              terrace; in half of the worlds, a few objects break the
+//              symmetry. With the symmetry S, the scans also fit at
 //
 //   twin_target_from_source = world_from_target^-1 S world_from_source.     (2)
 
@@ -53,18 +53,18 @@ struct WorldOptions {
   double distance = 10.0;  // Between the places, along the path [m].
   double yaw = 0.0;        // Rotation of the source [rad].
 
-  // For hills: between the ground normals at the two places [rad].
+  // For hills: the angle between the ground normals at the two places [rad].
   double tilt = 0.1;
 
   // Standard deviation of the vehicle's roll and pitch on its suspension [rad].
   double tilt_sigma = 0.0052;
 
-  // For corridors: the number of distinguishing features; negative: by the
-  // seed, with none in every fifth corridor.
+  // For corridors: the number of distinguishing features; negative: chosen by
+  // the seed, with none in about a fifth of the corridors.
   int num_features = -1;
 
-  // For halls, rooms and corridors in buildings: another floor, with the same
-  // walls and pillars but other objects.
+  // For halls, rooms and corridors: the number of the floor. Floors have the
+  // same walls and pillars but different objects.
   uint64_t floor = 0;
 
   bool IsValid(std::string* error) const;

@@ -19,7 +19,7 @@ namespace quatro {
 Table MakeRecallTable(const std::vector<PairResult>& results);
 
 // Columns: angle ("tilt" or "yaw"), from and to [deg], pairs. Every pair with a
-// true pose counts once, independent of the methods. Tilt has bins of 0.25 deg
+// true pose counts once, for any number of methods. Tilt has bins of 0.25 deg
 // up to the largest value, |yaw| bins of 10 deg up to 180.
 Table MakeTiltTable(const std::vector<PairResult>& results);
 

@@ -26,8 +26,8 @@ struct TableOptions {
   // CSV rather than print.
   bool with_intervals = false;
 
-  // Adds averages over all answers, of yaw, and as printed in the paper, and
-  // the time of each stage; for CSV rather than print.
+  // Adds averages over all answers, averages of the yaw error, t_avg as printed
+  // in the paper, and the time of each stage; for CSV rather than print.
   bool with_details = true;
 
   // True for pairs of scans, false for matched points; pairs of scans 9-12 m
@@ -58,7 +58,7 @@ std::vector<PairResult> SelectDistance(const std::vector<PairResult>& results,
 // another bin. Overlapping distance bins share pairs; added yaws make new ones.
 std::vector<PairResult> WithoutRepeats(const std::vector<PairResult>& results);
 
-// Empty for nullopt and for values that are not finite.
+// Formats a value; empty for nullopt and for values that are not finite.
 std::string NumberCell(const std::optional<double>& value, int digits);
 
 // Adds a value times `scale`, and the ends of its interval if `options` has
@@ -70,7 +70,7 @@ void AddCells(const std::optional<double>& value,
               const TableOptions& options,
               std::vector<std::string>* row);
 
-// Adds the names of these columns.
+// Adds the names of the columns that AddCells() fills.
 void AddColumns(const std::string& name,
                 const TableOptions& options,
                 std::vector<std::string>* columns);

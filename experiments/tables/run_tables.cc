@@ -26,7 +26,8 @@ std::vector<PairResult> OfTableThree(const std::vector<PairResult>& results) {
   return chosen;
 }
 
-// Two overlapping bins cannot be sampled evenly at the same time.
+// Pairs 9-12 m apart: the bin of this name, from which pairs are drawn evenly,
+// or else the pairs of all bins at these distances.
 std::vector<PairResult> OfTableOne(const std::vector<PairResult>& results) {
   const auto of_bin =
       SelectResults(results, std::nullopt, std::nullopt, "9-12 m");
@@ -34,7 +35,7 @@ std::vector<PairResult> OfTableOne(const std::vector<PairResult>& results) {
                         : of_bin;
 }
 
-// One set per bin; none if the bins differ.
+// The results with bins as sets; none if the bins are not those of kitti_lc.
 std::vector<PairResult> OfKittiLc(const std::vector<PairResult>& results) {
   auto bins = BinsOf(results);
   std::sort(bins.begin(), bins.end());

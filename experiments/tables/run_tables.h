@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // All tables of a run, as files in its folder. They depend only on the results;
-// only the timing tables contain times.
+// only the timing table contains times.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_RUN_TABLES_H_
 #define QUATRO_EXPERIMENTS_TABLES_RUN_TABLES_H_

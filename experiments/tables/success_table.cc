@@ -11,7 +11,7 @@ namespace {
 
 constexpr char kAll[] = "all";
 
-// Adds only the rate, without averages and bootstrap.
+// Adds only the success rate, without averages, which need the bootstrap.
 void AddSuccess(const std::vector<PairResult>& results,
                 const TableOptions& options,
                 std::vector<std::string>* row) {

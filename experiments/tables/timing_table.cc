@@ -17,7 +17,8 @@ bool IsFrontEnd(const std::string& stage) {
   return stage == "voxels" || stage == "features" || stage == "matching";
 }
 
-// Inserts a new stage before the first known one that follows it.
+// The stages of all results in the order of execution. A new stage is inserted
+// before the first known stage that follows it.
 std::vector<std::string> StagesOf(const std::vector<PairResult>& results) {
   std::vector<std::string> stages;
   for (const PairResult& result : results) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Times by stage: medians over the pairs [ms]. No other table of results has
-// times, so all others do not depend on the machine.
+// Times by stage: medians over the pairs [ms]. No other table of results
+// contains times, so the others do not depend on the machine.
 
 #ifndef QUATRO_EXPERIMENTS_TABLES_TIMING_TABLE_H_
 #define QUATRO_EXPERIMENTS_TABLES_TIMING_TABLE_H_

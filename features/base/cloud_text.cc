@@ -14,7 +14,7 @@
 namespace quatro {
 namespace {
 
-// A number beyond the range of double, for which from_chars() does not tell
+// Parses a number beyond the range of double. std::from_chars() does not report
 // whether it is too small or too large.
 std::optional<double> ParseOutOfRange(std::string_view word) {
   std::istringstream stream{std::string(word)};
@@ -25,7 +25,8 @@ std::optional<double> ParseOutOfRange(std::string_view word) {
   return value;
 }
 
-// Up to `end`, which is removed, too.
+// Removes the text up to `end`, and the character there, from *text. Returns
+// the text before `end`.
 std::string_view TakeUntil(std::size_t end, std::string_view* text) {
   const std::string_view line = text->substr(0, end);
   text->remove_prefix(std::min(line.size() + 1, text->size()));

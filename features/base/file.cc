@@ -144,9 +144,15 @@ std::optional<std::string> ReadTextFile(const std::string& path,
   return bytes ? AsText(*bytes, path, error) : std::nullopt;
 }
 
-std::unique_ptr<PendingFile> PendingFile::Write(const std::string& path,
+std::unique_ptr<PendingFile> PendingFile::Write(const std::string& name,
                                                 std::string_view bytes,
                                                 std::string* error) {
+  // A link is followed, not replaced.
+  std::error_code not_there;
+  const std::string path =
+      std::filesystem::is_symlink(name, not_there)
+          ? std::filesystem::weakly_canonical(name, not_there).string()
+          : name;
   std::string temporary;
   FileDescriptor file(CreateTemporary(path, &temporary));
   if (file.get() < 0) {

@@ -18,14 +18,14 @@ std::optional<std::string> ReadWholeFile(const std::string& path,
                                          std::string* error);
 
 // The bytes as text: without a byte order mark, and with LF at the end of each
-// line in place of LF, CR LF or CR. Returns nullopt and sets *error for bytes
-// that are not such text (features/base/foreign_file.h); `name` is that of the
-// file.
+// line in place of LF, CR LF or CR. Returns nullopt and sets *error if the
+// bytes are a file of another kind (features/base/foreign_file.h). `name` is
+// that of the file.
 std::optional<std::string> AsText(std::string_view bytes,
                                   const std::string& name,
                                   std::string* error);
 
-// ReadWholeFile() as text.
+// Reads a whole file as text.
 std::optional<std::string> ReadTextFile(const std::string& path,
                                         std::string* error);
 
@@ -34,7 +34,8 @@ std::optional<std::string> ReadTextFile(const std::string& path,
 // `path`.
 class PendingFile {
  public:
-  // Returns nullptr and sets *error if the file cannot be written.
+  // Returns nullptr and sets *error if the file cannot be written. If `path` is
+  // a symbolic link, the file that it points to is meant.
   static std::unique_ptr<PendingFile> Write(const std::string& path,
                                             std::string_view bytes,
                                             std::string* error);
@@ -59,8 +60,8 @@ bool WriteFileAtomically(const std::string& path,
                          std::string_view bytes,
                          std::string* error);
 
-// Removes the temporary files that killed calls of WriteFileAtomically() left
-// in `folder`. Call it only while nobody writes there.
+// Removes the temporary files that interrupted calls of WriteFileAtomically()
+// left in `folder`. Call it only while nothing writes there.
 void RemoveTemporaries(const std::string& folder);
 
 }  // namespace quatro

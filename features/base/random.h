@@ -44,7 +44,7 @@ class Random {
   // Uniform in [0, 1).
   double Uniform() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
 
-  // Normal, mean 0 and variance 1, by Box and Muller from two uniform ones.
+  // Standard normal, by the method of Box and Muller from two uniform draws.
   double Normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
     return radius * std::cos(2.0 * M_PI * Uniform());

@@ -4,10 +4,11 @@
 // once. Fresh memory from the system is already zero, so it is not cleared
 // again.
 //
-// Sizes that fill huge pages of 2 MiB, the last one to three quarters, are
-// requested in huge pages if the system has them. The first write to a page
-// causes a page fault, which takes longer than writing a page of 4 KiB. Huge
-// pages also keep rows that lie far apart within reach of the processor's TLB.
+// Memory of at least 1.5 MiB is requested in huge pages of 2 MiB if the system
+// has them, except for a last page that is less than three quarters full. The
+// first write to a page causes a page fault, which takes longer than writing a
+// page of 4 KiB. Huge pages also keep rows that lie far apart within reach of
+// the processor's TLB.
 
 #ifndef QUATRO_FEATURES_BASE_ZEROED_ALLOCATOR_H_
 #define QUATRO_FEATURES_BASE_ZEROED_ALLOCATOR_H_

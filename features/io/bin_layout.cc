@@ -24,10 +24,10 @@ constexpr std::size_t kNumSamples = 1 << 13;
 constexpr double kMaxCoordinate = 8e6;       // [m]
 constexpr double kMaxShareSenseless = 0.01;  // Stray points.
 
-// A structure of c values lowers G(1) by this at least.
+// Values have c columns only if G(c) is below this share of G(1).
 constexpr double kMaxShareOfUnstructured = 0.98;
 
-// A divisor of c is taken unless c lowers its G to less than this.
+// A divisor d of c is preferred unless G(c) is below this share of G(d).
 constexpr double kMaxShareOfDivisor = 0.8;
 
 // A file as values of one type.
@@ -42,7 +42,7 @@ struct Values {
         bytes.data() + i * SizeOf(type), type, std::endian::little);
   }
 
-  // A point at the origin, perhaps.
+  // Whether the value may belong to a point at the origin.
   bool IsAmongThreeZeros(std::size_t i) const {
     int num_zeros = 0;
     const std::size_t end = std::min(Size(), i + 3);
@@ -60,7 +60,8 @@ struct Sample {
   std::size_t index;
 };
 
-// Sorted by g. Indices at random: even steps would prefer some columns.
+// Samples sorted by g. The indices are random, because even steps would favor
+// some columns.
 std::vector<Sample> DrawSamples(const Values& values) {
   Random random(1);
   std::vector<Sample> samples;
@@ -99,7 +100,7 @@ double MeanDifference(std::span<const Sample> samples, std::size_t c) {
   return total / static_cast<double>(samples.size());
 }
 
-// c, or 0 if there are no columns.
+// The number of columns, or 0 if there are none.
 int FindNumValues(std::span<const Sample> samples) {
   constexpr std::size_t kMax = 8;
   if (samples.size() < kMinNumPoints) return 0;
@@ -115,7 +116,7 @@ int FindNumValues(std::span<const Sample> samples) {
   return g[best] < kMaxShareOfUnstructured * g[1] ? static_cast<int>(best) : 0;
 }
 
-// Share of finite values that are no coordinates [m].
+// The share of samples that are too large for coordinates.
 double ShareOfSenseless(std::span<const Sample> samples) {
   const double limit = std::asinh(kMaxCoordinate);
   const auto num_senseless = std::ranges::count_if(
@@ -125,8 +126,8 @@ double ShareOfSenseless(std::span<const Sample> samples) {
          std::max(1.0, static_cast<double>(samples.size()));
 }
 
-// Whether the lower halves of nonzero doubles end in 29 zeros: they were
-// float32 or whole numbers once.
+// Whether the last 29 bits of most nonzero doubles are zero, as in doubles that
+// were converted from float32 or are whole numbers.
 bool HasEmptyHalves(std::string_view bytes) {
   Random random(2);
   const std::size_t num_doubles = bytes.size() / sizeof(double);
@@ -178,9 +179,9 @@ std::string NotWholePoints(std::size_t size, const BinLayout& layout) {
          "); is it truncated, or of another layout (point_floats)?";
 }
 
-// Rows of c values that are not all zero, if they occur only at every k-th row,
-// are the first of k rows of one point, whose other columns are zero. Returns
-// the largest such k, and 1 if there are too few rows to tell.
+// If all but every k-th row of c values are zero, a point has k such rows, of
+// which only the first is not zero. Returns the largest such k, or 1 if there
+// are too few rows to decide.
 int FindZeroColumns(const Values& values, int c) {
   const auto num_columns = static_cast<std::size_t>(c);
   const std::size_t num_rows = values.Size() / num_columns;
@@ -198,7 +199,8 @@ int FindZeroColumns(const Values& values, int c) {
   return is_told ? static_cast<int>(std::min(step, kMinNumPoints)) : 1;
 }
 
-// Nullopt with *error set if the values have no columns or no coordinates.
+// Returns nullopt and sets *error if the values have no columns, too many
+// columns or no coordinates.
 std::optional<int> NumValuesOf(const Values& values,
                                std::span<const Sample> samples,
                                std::string* error) {
@@ -246,7 +248,7 @@ std::optional<BinLayout> FindBinLayout(std::string_view bytes,
       layout.type = ScalarType::kFloat64;
       if (num_values == 0) samples = DrawSamples({bytes, layout.type});
     }
-    // Without a sample there is not one finite point: others say so.
+    // Without samples there is no finite point, which ParseKittiBin() reports.
     if (num_values == 0 && !samples.empty()) {
       const auto found = NumValuesOf({bytes, layout.type}, samples, error);
       if (!found) return std::nullopt;

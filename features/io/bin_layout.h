@@ -21,11 +21,12 @@
 // Non-finite values and points at the origin, three zeros in a row, are
 // ignored. If all but every k-th row of c values are zero, a point has k c
 // values, the last of which are zero in all points. The values are float64 if
-// they make no sense as float32: the low half of a double is either noise, of
-// which two in five are beyond 8e6, or empty. Coordinates beyond 8e6 m, the
-// Earth's radius and a bit, make no sense.
+// they make no sense as float32: the low half of a double, read as float32, is
+// either noise, two in five times beyond 8e6, or zero. Coordinates beyond 8e6
+// m, slightly more than the Earth's radius, make no sense.
 //
-// Fewer than 64 points are float32 x y z intensity without a test of (1).
+// A file of fewer than 64 points is read as float32 x y z intensity without
+// these tests.
 //
 // Source: Szekely and Rizzo, "Energy statistics", JSPI 2013, for the
 // inequality.
@@ -53,9 +54,10 @@ struct BinLayout {
   }
 };
 
-// By the criteria above; with `num_values` > 0, float32 or float64 alone is
-// decided. Sets *error, without a path, if no layout makes sense, if several
-// do, or if the size is no whole number of points.
+// Infers the layout by the criteria above. If `num_values` > 0, infers only
+// whether it is float32 or float64. Returns nullopt and sets *error, without a
+// path, if no layout makes sense, if points seem to have more than 6 values, or
+// if the size is not a whole number of points.
 std::optional<BinLayout> FindBinLayout(std::string_view bytes,
                                        int num_values,
                                        std::string* error);

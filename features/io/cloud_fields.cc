@@ -28,7 +28,7 @@ void Append(T value, std::string* bytes) {
   bytes->append(raw.data(), raw.size());
 }
 
-// But for the case of ASCII letters.
+// Whether the names are equal, regardless of the case of ASCII letters.
 bool EqualInAnyCase(std::string_view a, std::string_view b) {
   const auto lower = [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

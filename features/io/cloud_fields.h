@@ -47,10 +47,11 @@ void AppendLittleEndian(double value, std::string* bytes);
 // missing.
 using CloudColumns = std::array<std::optional<std::size_t>, 4>;
 
-// `names` has one entry a field, empty where the field is not a single number.
-// Sets *error if there is not exactly one x, y and z, or without them X, Y and
-// Z. The first of "intensity", "scalar_intensity" and "reflectance" that
-// occurs, in any case, is the intensity.
+// `names` has one entry per field, empty if the field is not a single number.
+// Returns nullopt and sets *error unless there is exactly one x, y and z; if a
+// lower-case name is missing, X, Y or Z is used. The intensity is the first of
+// "intensity", "scalar_intensity" and "reflectance" that occurs, in upper or
+// lower case.
 std::optional<CloudColumns> FindCloudColumns(
     const std::vector<std::string_view>& names, std::string* error);
 

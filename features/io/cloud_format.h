@@ -30,7 +30,8 @@ struct CloudFileType {
   bool is_gzip = false;
 };
 
-// By the ending in any case: "a.PLY" or "a.ply.gz". Nullopt if it is not known.
+// The type by the ending, in upper or lower case: "a.PLY" or "a.ply.gz".
+// Returns nullopt if the ending is not known.
 std::optional<CloudFileType> FindCloudFileType(const std::string& path);
 
 // "ending '.las': must be .bin, ...", where `must_be` is one of the lists.

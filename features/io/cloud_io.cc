@@ -40,7 +40,7 @@ std::optional<PointCloud> Parse(CloudFormat format,
     case CloudFormat::kBin:
       break;
   }
-  // Its header would be read as points, and its numbers as float32.
+  // The header of a NumPy array would be read as points.
   if (bytes.starts_with(kNpyMagic)) return std::nullopt;  // See ReasonOf().
   // Lines of equal length would have columns, too.
   if (LooksLikeText(bytes)) {
@@ -52,7 +52,7 @@ std::optional<PointCloud> Parse(CloudFormat format,
   return ParseKittiBin(bytes, options.point_floats, error);
 }
 
-// In place of a parser's reason, if the file is no such file at all.
+// Replaces a parser's reason if the file is of another type.
 std::string ReasonOf(CloudFormat format,
                      std::string_view bytes,
                      const std::string& reason) {

@@ -7,7 +7,7 @@
 // A file is read completely or not at all. A file that is truncated, malformed
 // or without a single finite point is an error; its one-line message names the
 // file, the field and the reason. Points with a NaN or infinite coordinate and
-// points at the origin, which scanners write where nothing came back, are
+// points at the origin, which scanners write for beams without a return, are
 // dropped and counted. A file is written under a temporary name and then
 // renamed, so no reader ever sees an incomplete file.
 
@@ -31,7 +31,7 @@ struct ReadCloudOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Reads one of kReadableClouds. Returns nullopt and sets *error if it cannot.
+// Reads one of kReadableClouds. Returns nullopt and sets *error if that fails.
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     const ReadCloudOptions& options,
                                     std::string* error);
@@ -42,9 +42,9 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
 
 // Writes `.bin` (float32 x y z intensity), `.pcd` (binary, float32 x y z) or
 // `.ply` (binary little-endian, double x y z), the last two with a float
-// intensity if the cloud has one. Returns false and sets *error if it cannot. A
-// .bin whose intensities vary as much as its coordinates can be read again only
-// with point_floats = 4.
+// intensity if the cloud has one. Returns false and sets *error if that fails.
+// A .bin whose intensities vary as much as its coordinates can be read again
+// only with point_floats = 4.
 bool WriteCloud(const PointCloud& cloud,
                 const std::string& path,
                 std::string* error);

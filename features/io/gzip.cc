@@ -16,7 +16,7 @@ namespace quatro {
 #ifdef QUATRO_HAS_ZLIB
 namespace {
 
-// Ends the stream of zlib.
+// A stream of zlib, which is closed on destruction.
 class Inflater {
  public:
   Inflater() {

@@ -13,7 +13,7 @@ namespace quatro {
 
 // Decompresses all members of the file, one after the other. Returns nullopt
 // and sets *error, without a path, if `bytes` are not gzip, are truncated or
-// damaged, or if there was no zlib.
+// damaged, or if the library was built without zlib.
 std::optional<std::string> Gunzip(std::string_view bytes, std::string* error);
 
 }  // namespace quatro

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// .bin: little-endian numbers without a header. KITTI's layout, which is the
-// one that is written, is float32 x y z intensity; see bin_layout.h for others.
+// .bin: little-endian numbers without a header. KITTI's layout, float32 x y z
+// intensity, is the one that is written; see bin_layout.h for others.
 
 #ifndef QUATRO_FEATURES_IO_KITTI_BIN_H_
 #define QUATRO_FEATURES_IO_KITTI_BIN_H_
@@ -14,9 +14,10 @@
 
 namespace quatro {
 
-// A point has `point_floats` numbers, x y z and, if there are four, an
-// intensity first; 0: as FindBinLayout() finds. Sets *error, without a path, if
-// there is no cloud in `bytes`.
+// A point has `point_floats` numbers: x, y, z, the intensity if there are more
+// than three, and others, which are skipped. If it is 0, FindBinLayout() infers
+// it. Returns nullopt and sets *error, without a path, if `bytes` contain no
+// cloud.
 std::optional<PointCloud> ParseKittiBin(std::string_view bytes,
                                         int point_floats,
                                         std::string* error);

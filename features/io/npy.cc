@@ -27,8 +27,8 @@ struct Header {
   std::uint64_t num_columns = 0;
 };
 
-// Removes the header's dictionary from *bytes. Empty, with *error set, if there
-// is none.
+// Removes the header's dictionary from *bytes. Returns an empty view and sets
+// *error if there is none.
 std::string_view TakeDictionary(std::string_view* bytes, std::string* error) {
   constexpr std::size_t kVersionEnd = 8;
   if (!bytes->starts_with(kMagic)) {
@@ -60,7 +60,7 @@ std::string_view TakeDictionary(std::string_view* bytes, std::string* error) {
   return dictionary;
 }
 
-// What follows 'key': up to the next comma outside of brackets and quotes.
+// The value of 'key', up to the next comma outside of brackets and quotes.
 std::string_view ValueOf(std::string_view key, std::string_view dictionary) {
   for (const char quote : {'\'', '"'}) {
     const std::string quoted = quote + std::string(key) + quote;
@@ -70,7 +70,7 @@ std::string_view ValueOf(std::string_view key, std::string_view dictionary) {
     if (!rest.starts_with(':')) continue;
     rest = Trim(rest.substr(1));
     int depth = 0;
-    char open = '\0';  // The quote within which `c` is.
+    char open = '\0';  // The quote that `c` is inside of.
     for (std::size_t i = 0; i < rest.size(); ++i) {
       const char c = rest[i];
       if (open != '\0') {
@@ -89,7 +89,7 @@ std::string_view ValueOf(std::string_view key, std::string_view dictionary) {
   return {};
 }
 
-// '<f4' and '<f8' alone.
+// Accepts only '<f4' and '<f8'.
 bool ReadType(std::string_view descr, ScalarType* type, std::string* error) {
   const std::string_view name =
       descr.size() > 2 ? descr.substr(1, descr.size() - 2) : descr;
@@ -161,7 +161,7 @@ std::optional<PointCloud> ParseNpy(std::string_view bytes, std::string* error) {
   if (!header) return std::nullopt;
   const auto [type, is_fortran, num_rows, num_columns] = *header;
   const std::size_t size = SizeOf(type);
-  // No product of what the header says, which could overflow.
+  // Divides, because the product of the numbers in the header may overflow.
   if (bytes.size() % (num_columns * size) != 0 ||
       bytes.size() / (num_columns * size) != num_rows) {
     *error = std::to_string(bytes.size()) + " bytes of numbers, must be " +

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // .npy as NumPy's save() writes it: an array of N x 3 to N x 64 little-endian
-// float32 or float64, in C or Fortran order. A row is a point, its first three
-// numbers x, y and z; of four or five numbers the fourth is the intensity.
+// float32 or float64, in C or Fortran order. A row is a point. Its first three
+// numbers are x, y and z; if there are four or five, the fourth is the
+// intensity.
 //
 // Source: numpy.lib.format, versions 1.0 to 3.0 of the format.
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// PCD 0.5, 0.6 and 0.7: ascii, binary and binary_compressed. What PCL reads is
-// read: no VERSION, COLUMNS in place of FIELDS, TYPE in lower case, fields of
-// COUNT 0, a WIDTH or HEIGHT of 0.
+// PCD 0.5, 0.6 and 0.7: ascii, binary and binary_compressed. Variants that PCL
+// reads are accepted: no VERSION, COLUMNS in place of FIELDS, TYPE in lower
+// case, fields of COUNT 0, a WIDTH or HEIGHT of 0.
 //
 // A point is one row with fields x, y, z of any type and COUNT 1, and an
 // optional intensity (see FindCloudColumns). All other fields are skipped.

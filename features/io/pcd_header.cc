@@ -44,7 +44,7 @@ std::optional<Entries> TakeEntries(std::string_view* bytes,
   for (int line_number = 1; !bytes->empty(); ++line_number) {
     std::string_view line = lines.Take();
     std::string_view name = TakeWord(&line);
-    if (name == "COLUMNS") name = "FIELDS";  // As version .5 called them.
+    if (name == "COLUMNS") name = "FIELDS";  // Its name in version 0.5.
     if (name.empty() || name.starts_with('#')) continue;
     if (std::find(kNames.begin(), kNames.end(), name) == kNames.end() ||
         !entries.emplace(name, SplitWords(line)).second) {
@@ -58,7 +58,7 @@ std::optional<Entries> TakeEntries(std::string_view* bytes,
   return std::nullopt;
 }
 
-// PCL takes lower case, too.
+// PCL accepts lower case, too.
 std::optional<ScalarType> ParsePcdType(std::string_view type,
                                        std::string_view size) {
   if (type == "f") type = "F";
@@ -77,7 +77,8 @@ std::optional<ScalarType> ParsePcdType(std::string_view type,
   return std::nullopt;
 }
 
-// FIELDS, SIZE, TYPE and COUNT; without the last three all are single floats.
+// Parses FIELDS, SIZE, TYPE and COUNT. Without the last three, all fields are
+// single float32 numbers.
 bool ParseFields(Entries* entries, PcdHeader* header, std::string* error) {
   const Words& names = (*entries)["FIELDS"];
   Words& sizes = (*entries)["SIZE"];
@@ -135,8 +136,8 @@ std::optional<std::uint64_t> FindCount(const Entries& entries,
   return count;
 }
 
-// WIDTH, HEIGHT and POINTS. A WIDTH or HEIGHT of 0 is one that is missing, and
-// a missing HEIGHT is 1; of WIDTH and POINTS, one may be missing.
+// Parses WIDTH, HEIGHT and POINTS. A WIDTH or HEIGHT of 0 counts as missing. A
+// missing HEIGHT is 1. Either WIDTH or POINTS may be missing.
 std::optional<std::uint64_t> ParseNumPoints(const Entries& entries,
                                             std::string* error) {
   error->clear();

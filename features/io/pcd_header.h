@@ -20,14 +20,14 @@ namespace quatro {
 struct PcdField {
   std::string_view name;  // "_" is padding.
   ScalarType type;
-  std::uint64_t count = 1;   // Values a point; 0: the field is not there.
+  std::uint64_t count = 1;   // Values per point; 0: no such field.
   std::uint64_t offset = 0;  // In a row [bytes].
 };
 
 // The layout of a PCD file.
 struct PcdHeader {
   std::vector<PcdField> fields;
-  std::uint64_t row_size = 0;  // [bytes], below 2^32; 0 if all counts are.
+  std::uint64_t row_size = 0;  // [bytes], below 2^32; 0 if all counts are 0.
   std::uint64_t num_points = 0;
 
   // One of "ascii", "binary", "binary_compressed".

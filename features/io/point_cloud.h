@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// One scan as read from a file: its measured points, and the number of others.
+// One scan as read from a file: its measured points, and the number of dropped
+// points.
 
 #ifndef QUATRO_FEATURES_IO_POINT_CLOUD_H_
 #define QUATRO_FEATURES_IO_POINT_CLOUD_H_

@@ -81,7 +81,7 @@ void Split(std::string_view line,
   }
 }
 
-// "x", in quotes or without.
+// The name without quotes, if it has any.
 std::string_view Unquoted(std::string_view name) {
   const bool is_quoted =
       name.size() >= 2 && name.front() == '"' && name.back() == '"';
@@ -161,7 +161,7 @@ class PointTextParser {
     return false;
   }
 
-  // Whether the first field of the line, split by semicolons, is one.
+  // Whether the first field of a line split by semicolons has a decimal comma.
   bool HasDecimalCommas(const Line& line) const {
     if (line.text.find(';') == std::string_view::npos) return false;
     std::string number(fields_.front());
@@ -175,7 +175,7 @@ class PointTextParser {
                 "one separator");
   }
 
-  // Separator, columns and what stands before the first point.
+  // Reads up to the first point, and finds the separator and the columns.
   bool TakeFirstPoint() {
     Line header, comment;
     while (lines_.Take(&first_)) {
@@ -227,6 +227,11 @@ class PointTextParser {
       return true;
     }
     const auto named = ColumnsOf(header.text, num_columns_, &reason);
+    if (!named && header.text.starts_with("sx")) {
+      return Fail(header,
+                  "has the columns of matches, not of points; quatro_solve "
+                  "takes such a file");
+    }
     if (!named) {
       return Fail(header,
                   "header " + Quoted(header.text) + ": " + reason +

@@ -11,8 +11,8 @@
 // columns, and of four columns the last is the intensity. A header names the
 // columns (FindCloudColumns); it may be a comment, as NumPy and CloudCompare
 // write it, if it has as many names as there are columns. A first line of one
-// number is the number of points. Empty lines are passed over, and so is what
-// follows # or // on a line.
+// number is the number of points. Empty lines are ignored, and so is the rest
+// of a line after # or //.
 
 #ifndef QUATRO_FEATURES_IO_POINT_TEXT_H_
 #define QUATRO_FEATURES_IO_POINT_TEXT_H_
@@ -25,8 +25,8 @@
 
 namespace quatro {
 
-// Returns nullopt and sets *error, without a path, if `bytes` contain no cloud:
-// every line must have as many numbers as the first.
+// Returns nullopt and sets *error, without a path, if `bytes` contain no cloud,
+// or if a line has more or fewer numbers than the first.
 std::optional<PointCloud> ParsePointText(std::string_view bytes,
                                          std::string* error);
 

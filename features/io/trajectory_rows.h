@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Files of poses, which would pass for clouds: their rows are numbers, too.
+// Recognizes files of poses, which could be taken for clouds because their rows
+// are numbers, too.
 
 #ifndef QUATRO_FEATURES_IO_TRAJECTORY_ROWS_H_
 #define QUATRO_FEATURES_IO_TRAJECTORY_ROWS_H_
@@ -18,7 +19,7 @@ class TrajectoryRows {
  public:
   void Add(const std::vector<double>& row);
 
-  // Whether more rows can still make a trajectory.
+  // Whether the rows so far can be those of a trajectory.
   bool MayBeTrajectory() const { return is_tum_ || is_kitti_; }
 
   // "TUM" or "KITTI"; empty for other numbers, or with fewer than two rows.

@@ -32,15 +32,15 @@
 // steps at the level of rounding errors as a failure.
 //
 // Losses of blocks. The weight multiplies rho_i, and rho_i is compared with
-// c_i^2, so both halves of the loop lower (1). A ScaledLoss may therefore do
-// the whitening. A loss that never reaches its bound could never be rejected
-// and is an error.
+// c_i^2, so both steps of the loop decrease the same cost. A ScaledLoss may
+// therefore do the whitening. A loss that never reaches c_i^2 is an error,
+// because its block could never be rejected.
 //
 // Roles. Known inliers keep weight 1 and known outliers 0; known outliers are
 // not evaluated. If `candidates` is set, blocks in none of the lists are
-// inliers. Neither kind affects the initial mu. These contradictions are
-// errors: a block named twice, in two roles, or not in the problem; a bound for
-// a block that is no candidate.
+// inliers. Only the residuals of candidates determine the initial mu. It is an
+// error to name a block twice, in two roles, or one that is not in the problem,
+// and to give a bound for a block that is not a candidate.
 //
 // The caller's problem keeps its blocks, losses, manifolds, bounds, constant
 // blocks and ownership (robust/gnc/weighted_problem.h); nothing is kept from

@@ -122,7 +122,7 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
   Eigen::VectorXd& r2 = summary.squared_residuals;
   r2 = subproblem.SquaredResiduals(*summary.estimate);
 
-  // Without measurements there is nothing to weigh: the plain fit is the
+  // Without measurements there is nothing to weight, and the plain fit is the
   // answer.
   const double max_r2 =
       r2.size() == 0 ? 0.0

@@ -52,8 +52,9 @@ std::optional<GncBlocks> AssignRoles(const std::vector<Id>& ids,
   return blocks;
 }
 
-// Sets c_i of the candidates. Returns false and sets *error if a bound has no
-// effect.
+// Sets c_i of the candidates. Returns false and sets *error if a bound is for a
+// block that is not a candidate, or if a candidate's loss never reaches its
+// bound.
 bool AssignBounds(const ceres::Problem& problem,
                   const CeresGncOptions& options,
                   GncBlocks* blocks,

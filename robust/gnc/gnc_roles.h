@@ -20,7 +20,8 @@ namespace quatro {
 using GncBlocks = std::unordered_map<ceres::ResidualBlockId, GncBlock>;
 
 // The roles of all residual blocks, and the bounds of the candidates. Returns
-// nullopt and sets *error if the lists contradict each other or the problem.
+// nullopt and sets *error if the lists contradict each other or the problem, or
+// if a loss never reaches its bound.
 std::optional<GncBlocks> AssignGncRoles(const ceres::Problem& problem,
                                         const CeresGncOptions& options,
                                         std::string* error);

@@ -11,8 +11,8 @@
 // Hence Weight is the first derivative of Loss with respect to r2, and
 // WeightSlope the second.
 //
-// Residuals are divided by the noise bound before, so an inlier has r2 <= 1 and
-// no loss has a threshold of its own. Equation numbers are those of Yang,
+// Residuals are divided by the noise bound beforehand, so an inlier has r2 <= 1
+// and no loss has a threshold of its own. Equation numbers are those of Yang,
 // Antonante, Tzoumas and Carlone, "Graduated Non-Convexity for Robust Spatial
 // Perception", RA-L 2020, unless another paper is named.
 

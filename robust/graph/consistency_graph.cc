@@ -28,12 +28,13 @@ QUATRO_SIMD_CLONES int CountBits(const Graph::Word* words, std::size_t num) {
   return count;
 }
 
-// Points farther from the median, in bounds, are tested in double precision: a
-// float would round their distances by a sixteenth of the bound and more.
+// Points farther from the median than this many bounds are tested in double
+// precision, because a float would round their distances by a sixteenth of the
+// bound or more.
 constexpr float kMaxFloat = 1 << 20;
 
-// The table at the head of the header. Lengths that not even a double resolves
-// are not consistent with any.
+// The tests of robust/graph/consistency_test.h. Lengths that not even a double
+// resolves to the bound are not consistent with any other.
 bool AreConsistent(const Eigen::Vector3d& a,
                    const Eigen::Vector3d& b,
                    const ConsistencyOptions& options) {
@@ -50,8 +51,8 @@ bool AreConsistent(const Eigen::Vector3d& a,
              options.bound + longer * std::sin(options.max_tilt);
 }
 
-// Sets the edges of the vertices with a point beyond kMaxFloat, `p` and `q`
-// being in bounds about the medians.
+// Sets the edges of the vertices with a point beyond kMaxFloat. `p` and `q` are
+// relative to the medians, in units of the bound.
 void TestFarPoints(const PointsRef& source,
                    const PointsRef& target,
                    const Eigen::Matrix3Xf& p,

@@ -14,11 +14,11 @@
 
 namespace quatro {
 
-// `source` and `target` hold the matches column by column. Distances are in
-// single precision about the clouds' medians: exact to about 1e-7 of how far
-// from there the points are. Points a million bounds from there are compared in
-// double precision, so a far outlier spoils no edge, nor does it get one by
-// rounding.
+// `source` and `target` hold the matches column by column. Points are stored in
+// single precision relative to the clouds' medians, so distances are exact to
+// about 1e-7 of the distance of the points from the median. Points more than a
+// million bounds from it are tested in double precision, so a far outlier
+// neither spoils an edge nor gains one by rounding.
 Graph BuildConsistencyGraph(const PointsRef& source,
                             const PointsRef& target,
                             const ConsistencyOptions& options,

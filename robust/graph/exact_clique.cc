@@ -201,7 +201,8 @@ QUATRO_SIMD_CLONES bool ColorBranches(const Graph& graph,
 }
 
 // Removes candidates with fewer than `min_degree` neighbors among the
-// candidates until none is left. Returns the number of candidates that remain.
+// candidates until no such candidate is left. Returns the number of candidates
+// that remain.
 QUATRO_SIMD_CLONES int DropLowDegrees(const Graph& graph,
                                       int min_degree,
                                       Deadline* deadline,

@@ -27,7 +27,7 @@ double MedianOf(Eigen::VectorXd values) {
   return *middle;
 }
 
-// Whether each point is within `factor`. No square is taken: it might overflow.
+// Whether each point is within `factor`. Avoids squares, which might overflow.
 Eigen::Array<bool, 1, Eigen::Dynamic> AreWithin(const PointsRef& points,
                                                 double factor,
                                                 double noise_bound) {

@@ -5,7 +5,7 @@
 // The core number of a vertex is the largest k such that the vertex belongs to
 // a subgraph in which every vertex has at least k neighbors. In a clique of c
 // vertices every core number is at least c - 1. So core numbers bound the
-// clique size from above, and searching vertices in their descending order
+// clique size from above, and a search in descending order of core numbers
 // finds large cliques early.
 //
 // Sources: Batagelj and Zaversnik, "An O(m) Algorithm for Cores Decomposition

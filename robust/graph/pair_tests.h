@@ -7,13 +7,13 @@
 //                  <=>   t <= 2 a b,   t = (a^2 - b^2)^2 - (a^2 + b^2)
 //                  <=>   t |t| <= 4 a^2 b^2.                               (1)
 //
-// The relative rounding error of the difference of squares is that of the
-// difference of lengths, 1e-7 of the lengths, so squaring costs no accuracy.
-// The test of the heights is
+// Squaring costs no accuracy: the difference of squares has about the same
+// relative rounding error as the difference of lengths. The test of the heights
+// is
 //
 //   h <= max(a, b) sin(tilt)   <=>   h |h| <= max(a^2, b^2) sin^2(tilt),   (2)
 //
-// h = |a_z - b_z| - 1.
+// with h = |a_z - b_z| - 1.
 
 #ifndef QUATRO_ROBUST_GRAPH_PAIR_TESTS_H_
 #define QUATRO_ROBUST_GRAPH_PAIR_TESTS_H_

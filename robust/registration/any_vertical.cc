@@ -15,7 +15,7 @@
 namespace quatro {
 namespace {
 
-// Verticals that differ by less than 3 deg are the same.
+// Verticals that differ by less than 3 deg count as the same.
 const double kSameVertical = std::cos(3.0 * kDegree);
 
 class AnyVertical {
@@ -28,7 +28,7 @@ class AnyVertical {
     const LevelFrames given = MakeLevelFrames(ins);
     if (ins.gravity != Gravity::kNone) Try(given, "given", prepared_);
     if (!IsDone()) {
-      // The tilt is in the frames, so rung 0 suffices.
+      // These frames already contain the tilt, so rung 0 suffices.
       Prepared one_rung = prepared_;
       one_rung.options.search.max_rung = 0;
       const Method* teaser = FindMethod("teaser", &error_);
@@ -37,7 +37,7 @@ class AnyVertical {
                one_rung);
     }
     if (!IsDone()) TryOther(LevelByNormals(clouds_), "normals", prepared_);
-    if (!best_) Try(given, "given", prepared_);  // There are no normals.
+    if (!best_) Try(given, "given", prepared_);  // No other frames.
     best_->total_seconds += other_seconds_;
     return *std::move(best_);
   }
@@ -49,8 +49,8 @@ class AnyVertical {
                          prepared_.options.search.time_limit_seconds);
   }
 
-  // Unless these frames leave the same tilt between the clouds as the given
-  // ones, with about the same vertical.
+  // Tries other frames, unless they have the verticals of the given frames and
+  // these were tried before.
   void TryOther(const std::optional<LevelFrames>& frames,
                 const char* leveled_by,
                 const Prepared& prepared) {
@@ -80,7 +80,7 @@ class AnyVertical {
     if (IsBetter(summary, *best_)) std::swap(summary, *best_);
     other_seconds_ += summary.total_seconds;
     for (const StageTime& time : clouds_.stage_times) {
-      other_seconds_ -= time.seconds;  // Both have the same matches.
+      other_seconds_ -= time.seconds;  // Matched only once.
     }
   }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Registers clouds whose vertical may not be the one stated: as stated; if that
-// pose is not registered, in the level frames that the matches give, and then
-// in those of the normals (robust/registration/gravity.h). The answer is the
-// first pose that is registered, otherwise the most probable one.
+// Registers clouds whose stated vertical may be wrong. Level frames are tried
+// in this order: by the stated vertical, by the matches, by the normals
+// (robust/registration/gravity.h). The result is the first pose that is
+// registered; if none is, the most probable one.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_ANY_VERTICAL_H_
 #define QUATRO_ROBUST_REGISTRATION_ANY_VERTICAL_H_
@@ -15,12 +15,12 @@
 
 namespace quatro {
 
-// Whether these options let the scans give the vertical. The method must
-// search, and neither an INS nor bounds on the pose say which way is up.
+// Whether the vertical may come from the scans. This requires Gravity::kScans
+// or kNone and a method that searches, without an INS or bounds on the pose.
 bool MayLevelByScans(const RegistrationOptions& options);
 
-// For Gravity::kNone the stated vertical is tried only if the clouds have no
-// normals.
+// With Gravity::kNone, the stated vertical is tried only if the scans give no
+// level frames.
 RegistrationSummary RegisterByAnyVertical(const MatchedClouds& clouds,
                                           const Prepared& prepared);
 

@@ -21,9 +21,9 @@
 namespace quatro {
 namespace {
 
-// A scan holds its sensor at the origin. A cloud that does not reach around its
-// origin is in the coordinates of a map; its sensor is assumed above its
-// middle, from where it need not have been seen.
+// The sensor of a scan is at the origin. A cloud that is far from the origin is
+// taken to be in map coordinates. Its sensor is placed above its middle,
+// although the cloud need not have been seen from there.
 void AssumeSensor(const Eigen::Vector3d& up, DescribedCloud* cloud) {
   const Points& points = cloud->points();
   const Eigen::Vector3d low = points.rowwise().minCoeff();
@@ -53,10 +53,10 @@ Fpfh Describe(const Points& points,
   return ComputeFpfh(points, cloud->normals, neighborhoods, num_threads);
 }
 
-// A larger radius reaches across most of a scan.
+// A larger radius would include most of a scan.
 constexpr double kMaxVoxels = 100.0;
 
-// The descriptors of points by the radii in `options`.
+// The descriptors of points, with the radii in `options`.
 Fpfh DescribeAgain(const Points& points,
                    const Eigen::Vector3d& sensor,
                    const FrontEndOptions& options,
@@ -115,8 +115,8 @@ std::optional<std::array<Points, 2>> SampleBoth(
   return std::array<Points, 2>{std::move(*voxels[0]), std::move(*voxels[1])};
 }
 
-// Describes both clouds at once, each with half of the threads: the part of one
-// that a single thread does is done beside that of the other.
+// Describes both clouds at once, each with half of the threads, so that their
+// serial parts overlap.
 std::array<Fpfh, 2> DescribeBoth(
     const std::array<Points, 2>& voxels,
     const std::array<const Eigen::Vector3d*, 2>& up,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// From two clouds to matched points:
+// The front end, which matches the points of two clouds:
 //
 //   clouds -> voxels -> normals, FPFH -> mutual nearest -> tuple test
 //
@@ -36,7 +36,7 @@ struct FrontEndOptions {
   double voxel_size = 0.3;     // [m]
   double normal_radius = 0.9;  // [m]
   double fpfh_radius = 1.5;    // [m], normal_radius to 100 voxel_size.
-  CloudDescriber describe;     // In place of FPFH, with its radius.
+  CloudDescriber describe;     // Replaces FPFH; gets fpfh_radius.
   bool tuple_test = true;
   TupleTestOptions tuple;
 
@@ -44,7 +44,7 @@ struct FrontEndOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Two clouds described, and their matches.
+// Two described clouds and their matches.
 struct MatchedClouds {
   // Why there are no matches: an option is out of range, or a cloud has no
   // points or is too wide. Empty otherwise.

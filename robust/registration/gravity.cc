@@ -18,7 +18,7 @@ constexpr Eigen::Index kMaxTried = 200;
 constexpr Eigen::Index kMinSampled = 50;
 const double kMinCosine = std::cos(10.0 * kDegree);
 
-// At most kMaxSampled of those that are known, evenly over the cloud.
+// At most kMaxSampled of the known normals, evenly over the cloud.
 Points SampleNormals(const DescribedCloud& cloud) {
   std::vector<Eigen::Index> known;
   for (Eigen::Index i = 0; i < cloud.normals.cols(); ++i) {
@@ -34,7 +34,7 @@ Points SampleNormals(const DescribedCloud& cloud) {
   return normals;
 }
 
-// The direction around which most of the normals are.
+// The direction that has the most normals around it.
 std::optional<Eigen::Vector3d> CommonDirection(const Points& normals) {
   const Eigen::Index n = normals.cols();
   if (n < kMinSampled) return std::nullopt;

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Level frames from the scans themselves, for clouds whose vertical is unknown
-// or is not the one stated. Two ways to find them; each is a proposal, and the
-// verdict decides whether the pose found in it is registered:
+// or stated incorrectly. There are two ways. Each gives a proposal, and the
+// verdict decides whether the pose found with it is registered:
 //
-//   by matches   T of a solver in SO(3) (TEASER++): R is the rotation between
-//                the clouds, and with it
+//   by matches   A solver of the full rotation (TEASER++) finds the rotation R
+//                between the clouds. With
 //                  level_from_source = level_from_target R,               (1)
-//                so that only translation and a small yaw remain
-//   by normals   z along the commonest normal of each cloud, as oriented toward
-//                the sensor: outdoors that of the ground
+//                only the translation and a small yaw remain.
+//   by normals   z is the most common normal of each cloud, oriented toward the
+//                sensor; outdoors it is the normal of the ground.
 //
-// By matches works for any two clouds with enough inliers, by normals also far
-// apart, where the yaw-only model is needed to find any consensus.
+// Leveling by matches needs enough inliers. Leveling by normals also works for
+// scans far apart, where only the yaw-only model finds a consensus.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_GRAVITY_H_
 #define QUATRO_ROBUST_REGISTRATION_GRAVITY_H_
@@ -27,17 +27,17 @@
 
 namespace quatro {
 
-// The commonest direction u of the normals: that with the most n_i within 10
-// deg, then the mean of these. A unit vector; nullopt with fewer than 50
-// normals.
+// The most common direction of the normals, a unit vector: the normal with the
+// most normals within 10 deg, then the mean of these. Returns nullopt if there
+// are fewer than 50 normals.
 std::optional<Eigen::Vector3d> FindCommonNormal(const DescribedCloud& cloud);
 
-// By matches: z is the commonest normal of both clouds under R. Returns nullopt
-// if the solver finds no pose, or there is no such normal.
+// By matches: z is the most common normal of both clouds, aligned by R. Returns
+// nullopt if the solver finds no pose, or if there are fewer than 50 normals.
 std::optional<LevelFrames> LevelByMatches(const MatchedClouds& clouds,
                                           const PoseSolver& solver);
 
-// By normals. Returns nullopt if either cloud has no common one.
+// By normals. Returns nullopt if either cloud has fewer than 50 normals.
 std::optional<LevelFrames> LevelByNormals(const MatchedClouds& clouds);
 
 }  // namespace quatro

@@ -18,18 +18,18 @@
 namespace quatro {
 namespace {
 
-// A right match is off by the noise bound at so many standard deviations, if
-// InsOptions::match_std does not say otherwise.
+// The noise bound in standard deviations of an inlier, unless
+// InsOptions::match_std is set.
 constexpr double kSigmasInBound = 3.0;
 
-// Bounds of the alternation of inliers and pose, in noise bounds. The first
-// reaches farther. The second never makes the cost larger: where the matches
-// were fitted before, the prior has its say.
+// Inlier bounds of the alternation between inliers and pose [noise bounds]. The
+// first schedule reaches farther. The second never increases the cost.
 using Schedule = std::array<double, 6>;
 constexpr Schedule kSchedules[] = {{2.0, 1.5, 1.0, 1.0, 1.0, 1.0},
                                    {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}};
 
-// (1) of ins_refinement.h over all matches, those that are off truncated.
+// The cost (1) of solvers/ceres/ins_refinement.h over all matches, truncated at
+// the noise bound.
 double FusedCost(const DistinctMatches& matches,
                  const Rigid3& pose,
                  double noise_bound,
@@ -64,7 +64,8 @@ std::optional<Rigid3> Refine(const DistinctMatches& matches,
   return pose;
 }
 
-// All in the level frames, where up is z.
+// Refines the pose with the INS as a prior. Matches and pose are in the level
+// frames, where z is up.
 void Fuse(const PointsRef& source,
           const PointsRef& target,
           double noise_bound,

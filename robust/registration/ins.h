@@ -42,7 +42,7 @@ enum class InsMode { kNone, kRelative, kLeveled, kFused };
 enum class Gravity {
   kGiven,  // `up`, and the INS if there is one.
   kScans,  // As kGiven; if that pose is not registered, the scans themselves.
-  kNone,   // The scans themselves: `up` is not used.
+  kNone,   // The scans themselves; as kGiven only if they give no vertical.
 };
 
 // The attitudes from the INS, and their uncertainty.
@@ -53,9 +53,10 @@ struct InsOptions {
   Attitude source_attitude;
   Attitude target_attitude;
 
-  // For InsMode::kFused: the standard deviation of each roll and each pitch
-  // [rad]. Errors of source and target are independent, so the standard
-  // deviation of the tilt between the clouds is sqrt(2) times as large.
+  // The standard deviation of each roll and each pitch [rad], for the
+  // covariance and for InsMode::kFused. Errors of source and target are
+  // independent, so the standard deviation of the tilt between the clouds is
+  // sqrt(2) times as large.
   double attitude_std = 0.0087;
 
   // For InsMode::kFused: the standard deviation of an inlier on each axis [m];
@@ -68,8 +69,9 @@ struct InsOptions {
   // vector. RotationBetween(up, z) rotates the cloud's axes into the body's.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 
-  // kScans has no effect with an INS, with bounds on the pose, or for a method
-  // that searches no other poses. kNone is an error there.
+  // With an INS, with bounds on the pose, without clouds, or for a method that
+  // searches no other poses, kScans has no effect and kNone is an error. Local
+  // registration ignores both.
   Gravity gravity = Gravity::kGiven;
 
   // Returns false and says why in *error if a value is out of range.
@@ -95,11 +97,11 @@ struct LevelFrames {
 // The level frames of a mode.
 LevelFrames MakeLevelFrames(const InsOptions& ins);
 
-// Any solver on matches in level frames, with z up. Sets the standard deviation
-// of the assumed vertical, and for InsMode::kFused refines the pose with the
-// INS as a prior; the pose before the refinement is then the unpolished one.
-// Estimators of the full rotation benefit only from kFused. `noise_bound` is
-// that of the solver [m].
+// Runs any solver on matches in level frames, with z up. Sets the standard
+// deviation of the assumed vertical, and for InsMode::kFused refines the pose
+// with the INS as a prior; the pose before the refinement is then the
+// unpolished one. Estimators of the full rotation benefit only from kFused.
+// `noise_bound` is that of the solver [m].
 PoseSummary SolveLevel(const PointsRef& source,
                        const PointsRef& target,
                        const PoseSolver& solver,

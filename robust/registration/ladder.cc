@@ -15,17 +15,17 @@
 namespace quatro {
 namespace {
 
-// Sizes of rung 2 over those of the options.
+// Ratios of the sizes of rung 2 to those of the options.
 constexpr double kVoxelFactor = 2.0;
 constexpr double kNormalFactor = 4.0 / 3.0;
 constexpr double kFpfhFactor = 7.0 / 3.0;
 
 // The estimator's pose replaces the candidate if its score is at least this
-// share of the candidate's. A pose without the tilt between the scans replaces
-// it only if its score is not less.
+// share of the candidate's. A pose whose tilt was not estimated replaces it
+// only if its score is not lower.
 constexpr double kMinScoreShare = 0.95;
 
-// A consensus of more than this share of the matches is not one of chance.
+// A consensus of more than this share of the matches is not due to chance.
 constexpr double kSureShare = 0.2;
 
 // Whether the tilt between the scans was estimated.
@@ -33,7 +33,7 @@ bool HasTilt(const PoseSummary& summary) {
   return summary.model == PoseModel::kRigid;
 }
 
-// Runs an estimator on the inliers of a candidate alone.
+// Runs an estimator on only the inliers of a candidate.
 class CandidateSolver {
  public:
   CandidateSolver(const PoseSearch& search,
@@ -130,8 +130,8 @@ class Ladder {
         options_(problem.options),
         summary_(*summary) {}
 
-  // A registered pose without the tilt between the scans is aligned with the
-  // clouds, and judged again if they fit it better.
+  // Aligns a registered pose whose tilt was not estimated with the clouds. If
+  // this improves the score, the aligned pose is judged and replaces it.
   void CheckTilt(const PointsRef& matched_source,
                  const PointsRef& matched_target) {
     const bool is_refined =
@@ -150,8 +150,8 @@ class Ladder {
     if (is_better) Take(Attempt(matched_source, matched_target, 0, aligned));
   }
 
-  // Climbs until a pose is registered. Returns the matches of the answer if it
-  // is from a higher rung, else none.
+  // Climbs until a pose is registered. Returns the matches of the pose if it is
+  // from a higher rung, else none.
   MatchedPoints Climb() {
     MatchedPoints answer;
     if (IsSurelyOutside()) return answer;
@@ -187,8 +187,8 @@ class Ladder {
   }
 
  private:
-  // Whether the matches leave no doubt of a pose outside of the bounds. What
-  // else fits within them would be a coincidence.
+  // Whether the matches clearly support a pose outside of the bounds. A pose
+  // found within the bounds would then be due to chance.
   bool IsSurelyOutside() const {
     if (!problem_.bounds.IsActive() || summary_.solution.IsUsable()) {
       return false;
@@ -198,7 +198,7 @@ class Ladder {
            kSureShare * static_cast<double>(outside.num_matches);
   }
 
-  // Made when it is first needed.
+  // The search, built on first use.
   const PoseSearch& Search() {
     const double voxel_size = options_.front_end.voxel_size;
     if (!search_) {

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The ladder: what is tried if the estimator's pose is not registered.
+// The ladder: further attempts if the estimator's pose is not registered.
 //
 //   rung 0  the estimator on the matches that passed the tuple test
 //   rung 1  poses searched in all mutual matches
 //           (robust/registration/pose_search.h)
-//   rung 2  the same with coarser voxels and descriptors of larger radii
+//   rung 2  as rung 1, with coarser voxels and descriptors of larger radii
 //
-// On a rung the best candidate is taken. The estimator runs on its inliers, so
-// that the yaw comes from GNC with its certificate, and the rest follows as
-// usual. If the structure of the scans fits the candidate better than the
-// estimator's pose, the candidate is kept. The ladder ends with the first pose
-// that is registered; otherwise the pose with the highest probability is the
-// answer.
+// Each rung takes its best candidate and runs the estimator on the inliers of
+// that candidate. So the yaw comes from GNC with its certificate, and all later
+// stages are as usual. If the structure of the scans fits the candidate better
+// than the estimator's pose, the candidate is kept. The ladder ends with the
+// first pose that is registered; otherwise the pose with the highest
+// probability is the answer.
 //
 // If few matches are inliers, the estimator finds no tilt between the scans,
 // and its pose may be registered although it is off by that tilt. Therefore
 // such a pose is aligned with the clouds by VG-ICP, unless an INS gives the
-// tilt. If their structure then fits better, the aligned pose is the candidate
-// of rung 0, and its verdict counts.
+// tilt or a refinement was accepted. If the aligned pose has a better geometric
+// score, it becomes the candidate of rung 0, and its verdict counts.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_LADDER_H_
 #define QUATRO_ROBUST_REGISTRATION_LADDER_H_
@@ -29,10 +29,11 @@
 
 namespace quatro {
 
-// Climbs from `summary`, that of rung 0 on the matches given first, and
-// replaces it by a better one. The problem must have clouds. `mutual_matches`
-// are all that the front end found, in the frames of the problem. Returns the
-// matches of the answer if it is from a higher rung, else none.
+// `summary` is that of rung 0 on `matched_source` and `matched_target`, and is
+// replaced if a better pose is found. The problem must have clouds.
+// `mutual_matches` are all mutual matches of the front end, in the frames of
+// the problem. Returns the matches of the pose if it is from a higher rung,
+// else none.
 MatchedPoints Climb(const PointsRef& matched_source,
                     const PointsRef& matched_target,
                     const MatchedPoints& mutual_matches,

@@ -29,8 +29,8 @@ Points Leveled(const Eigen::Matrix3d& level_from_cloud,
 DescribedCloud Leveled(const Eigen::Matrix3d& level_from_cloud,
                        const DescribedCloud& cloud);
 
-// The bounds on T_level. With an INS the guess is level: its own roll and
-// pitch, which need not be known, are replaced by those of the INS.
+// The bounds on T_level. With an INS, its roll and pitch replace those of the
+// guess, which need not be known.
 PoseBounds Leveled(const LevelFrames& frames,
                    const InsOptions& ins,
                    const PoseBounds& bounds);

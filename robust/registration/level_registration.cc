@@ -81,7 +81,8 @@ class LevelRegistration {
     FinishStage("refinement");
   }
 
-  // What the clouds say about the pose, and which directions they constrain.
+  // Measures the geometric evidence, and which directions the surfaces
+  // constrain.
   void WeighGeometry() {
     const Rigid3& pose = *summary_.solution.target_from_source;
     const double voxel_size = options_.front_end.voxel_size;

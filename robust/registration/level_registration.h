@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// All that follows the matches, with z up:
+// The stages after matching, with z up:
 //
 //   matches -> estimator -> covariance -> refinement -> geometric evidence
 //           -> verdict

@@ -84,7 +84,7 @@ AlignmentSummary AlignVoxels(Points source,
   return Align(source_cloud, target_cloud, initial_target_from_source, options);
 }
 
-// By `align`, or ours if it is empty.
+// Uses `align`, or AlignVoxels() if it is empty.
 RegistrationSummary RegisterBy(const PointCloud& source,
                                const PointCloud& target,
                                const Rigid3& initial_target_from_source,

@@ -9,7 +9,7 @@
 namespace quatro {
 namespace {
 
-// Matches above which a graph of them no longer pays.
+// The number of matches above which a consistency graph costs too much.
 constexpr Eigen::Index kMaxGraphMatches = 20000;
 
 // `kSolve` takes matched points and the estimator's options.

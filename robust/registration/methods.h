@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The registry of methods: a name, a description, the options and a solver
-// each. A new estimator is one file in robust/estimators/ and one line in
+// The registry of methods, each with a name, a description, options and a
+// solver. A new estimator is one file in robust/estimators/ and one line in
 // methods.cc; it is then known to every program, table and figure, and to
 // Python.
 
@@ -20,13 +20,13 @@ namespace quatro {
 
 // The input of a method.
 enum class MethodInput {
-  kMatches,        // Matched points, of clouds or by themselves.
+  kMatches,        // Matched points, with or without clouds.
   kMatchedClouds,  // Matched points and the clouds that they come from.
   kClouds,         // Two clouds and a guess: local registration.
 };
 
-// Whether a method can use the attitudes of an INS: those that estimate roll
-// and pitch by themselves cannot.
+// Whether a method can use the attitudes of an INS. Methods that estimate roll
+// and pitch cannot.
 enum class InsUse { kRefused, kTaken, kNeeded };
 
 // One line of the registry.
@@ -56,18 +56,18 @@ std::span<const Method> Methods();
 // Names of the methods for this input.
 std::vector<std::string> MethodNames(MethodInput input);
 
-// Returns a nullptr and sets *error for a name that is not in the registry.
+// Returns nullptr and sets *error for a name that is not in the registry.
 const Method* FindMethod(const std::string& name, std::string* error);
 
-// All options that the method reads: the common ones, the front end's and the
-// refinement's if there are clouds, the method's, and an INS'. An option that
-// it has no use for is not among them.
+// All options that the method reads, and no others: the common options; if
+// there are clouds, those of the front end, the refinement and the search; its
+// own options; those of the INS; and the bounds.
 OptionList OptionsOf(const Method& method,
                      bool has_clouds,
                      RegistrationOptions* options);
 
-// Returns false and sets *error if the method cannot use options.ins, or needs
-// an INS that is not there.
+// Returns false and sets *error if the method cannot use `ins`, or if it needs
+// an INS and there is none.
 bool CanUseIns(const Method& method, const InsOptions& ins, std::string* error);
 
 }  // namespace quatro

@@ -52,7 +52,8 @@ struct Option {
                Choice>
       field;
 
-  // "[m], > 0: edge of a voxel", with the names of a choice.
+  // The range and the text, for example "[m], > 0: edge of a voxel", followed
+  // by the names of a choice.
   std::string Describe() const;
 
   // Sets the field from a flag's text: a number, "on" or "off", a name, three

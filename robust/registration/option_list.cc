@@ -190,7 +190,7 @@ OptionList InsOptionList(RegistrationOptions* options) {
        AttitudeField{&o->target_attitude}},
       {"attitude_std",
        "[rad]",
-       "standard deviation of each roll and pitch, for fused",
+       "standard deviation of each roll and pitch by the INS",
        &o->attitude_std},
       {"match_std",
        "[m]",

@@ -23,7 +23,8 @@ void Append(OptionList more, OptionList* list);
 // Options that all methods share: noise bound, seed, threads, probability.
 OptionList CommonOptions(RegistrationOptions* options);
 
-// Options of what comes before and after the estimator.
+// Options of the stages before and after the estimator, of the INS, and of the
+// bounds on the pose.
 OptionList FrontEndOptionList(RegistrationOptions* options);
 OptionList RefinementOptionList(RegistrationOptions* options);
 OptionList SearchOptionList(RegistrationOptions* options);
@@ -39,7 +40,7 @@ OptionList TeaserOptionList(RegistrationOptions* options);
 OptionList FgrOptionList(RegistrationOptions* options);
 OptionList RansacOptionList(RegistrationOptions* options);
 
-// Options of local alignment by itself.
+// Options of local alignment alone.
 OptionList LocalAlignmentOptionList(LocalAlignmentOptions* options);
 
 }  // namespace quatro

@@ -48,7 +48,7 @@ struct RegistrationOptions {
   FgrOptions fgr;
   RansacOptions ransac;
 
-  // Another estimator in place of `method`, given the matches with z up.
+  // A custom estimator that replaces `method`. It gets the matches with z up.
   PoseSolver solver;
 
   // The largest residual of an inlier [m]: on each axis or as a distance,
@@ -71,7 +71,8 @@ struct RegistrationOptions {
   EvidenceOptions evidence;
   VerdictOptions verdict;
 
-  // Local registration of the voxel means from the pose found. None by default.
+  // Local registration of the voxel means from the estimated pose. None by
+  // default.
   RefinementOptions refinement;
 
   int num_threads = 1;  // 0: all cores. Never changes the answer.
@@ -85,8 +86,8 @@ struct RegistrationOptions {
 };
 
 // Returns the options with all lengths of the front end, the noise bound, the
-// covariance and the refinement times `factor` > 0. The bounds on the pose are
-// as given.
+// covariance and the refinement multiplied by `factor` > 0. The bounds on the
+// pose are not scaled.
 RegistrationOptions ScaledBy(double factor, RegistrationOptions options);
 
 // Returns the options with seed, threads and noise bound set in every part.

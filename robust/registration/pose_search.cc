@@ -22,7 +22,7 @@ namespace {
 // Points of the source that VG-ICP aligns, two thirds of them structure.
 constexpr std::size_t kNumAlignedPoints = 1500;
 
-// VG-ICP first pulls from afar, then settles [voxel sizes of the clouds].
+// Voxels of VG-ICP, first coarse, then fine [voxel sizes of the clouds].
 constexpr double kCoarseVoxels = 20.0 / 3.0;
 constexpr double kFineVoxels = 10.0 / 3.0;
 constexpr int kCoarseIterations = 10;
@@ -32,7 +32,7 @@ constexpr int kFineIterations = 20;
 constexpr double kSameRotation = 0.035;  // [rad]
 constexpr double kSameShift = 2.0;       // [noise bounds]
 
-// A smaller inclination is left to max_tilt [rad].
+// The max_tilt of the consensus search covers a smaller inclination [rad].
 constexpr double kMinInclination = 0.05;
 
 // VG-ICP may move a proposal into the bounds from this far outside.
@@ -42,7 +42,7 @@ constexpr double kMaxTurnIntoBounds = 0.1;   // [rad]
 // VG-ICP cannot number the voxels of a wider cloud [voxel sizes].
 constexpr double kMaxWidth = 1e6;
 
-// Every k-th of the points, so that at most `num_wanted` are left.
+// Appends at most `num_wanted` of the points, evenly over their order.
 void Thin(const std::vector<Eigen::Index>& from,
           std::size_t num_wanted,
           std::vector<Eigen::Index>* to) {
@@ -124,7 +124,8 @@ double PoseCandidate::Score() const {
   return geometry.value() * std::sqrt(log_likelihood_ratio);
 }
 
-// VG-ICP from a sample of the source, with the voxels of the target at hand.
+// VG-ICP from a sample of the source. The voxels of the target are computed
+// once.
 struct PoseSearch::Aligner {
   Aligner(const DescribedCloud& source,
           const DescribedCloud& target,

@@ -4,20 +4,20 @@
 //
 //   matches -> consensus search (robust/estimators/consensus_search.h), once
 //              with the given vertical and, if the walls of either scan are
-//              inclined against it, once with their own
+//              inclined against it, once with the vertical of the walls
 //              (robust/registration/vertical.h)
 //           -> geometric score of each proposal, the best are kept
 //           -> VG-ICP in SE(3) from each of these (solvers/local/vgicp.h)
 //           -> geometric score again: candidates, the best first
 //
-// Far apart, one match in a hundred is true, and the largest consensus by
-// chance is as large as the true one. Structure that coincides tells them
-// apart. A candidate is ordered by
+// If the scans are far apart, one match in a hundred is correct, and chance
+// produces a consensus as large as that of the correct pose. The overlap of
+// structure distinguishes the two. Candidates are ordered by
 //
 //   score(T) * sqrt(log-likelihood ratio of its matches),                  (1)
 //
-// the latter being about the number of standard deviations by which its
-// consensus exceeds chance.
+// where the second factor is about the number of standard deviations by which
+// the consensus exceeds chance.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
 #define QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
@@ -39,17 +39,18 @@ namespace quatro {
 
 // How far the search goes.
 struct PoseSearchOptions {
-  // Rungs beyond the estimator's own answer that are tried until one is
+  // The rungs above the estimator's own pose that are tried until a pose is
   // registered (robust/registration/ladder.h), in [0, 2].
   int max_rung = 2;
 
-  // All lengths of the front end and the noise bound are multiplied by these in
-  // turn, with all rungs for each, until a pose is registered. Register() only:
-  // RegisterMatched() has the matches of one scale.
+  // Register() multiplies all lengths by each of these factors in turn
+  // (ScaledBy() in robust/registration/options.h) and tries all rungs, until a
+  // pose is registered. RegisterMatched() ignores them, because its matches
+  // have one scale.
   std::vector<double> scale_factors = {1.0};
 
-  // No rung or scale is begun later than this [s]. The answer then depends on
-  // the speed of the machine.
+  // No rung or scale is started after this time [s]. If it is finite, the
+  // result depends on the speed of the machine.
   double time_limit_seconds = std::numeric_limits<double>::infinity();
 
   int max_num_proposals = 128;
@@ -65,7 +66,7 @@ struct PoseSearchOptions {
   bool IsValid(std::string* error) const;
 };
 
-// A pose, where it came from, and what speaks for it.
+// A candidate pose, its origin, and the evidence for it.
 struct PoseCandidate {
   Rigid3 target_from_source;
   std::string origin;  // The rung and the vertical of its proposal.
@@ -117,8 +118,9 @@ class PoseSearch {
                                        const std::string& origin,
                                        const PoseBounds& bounds) const;
 
-  // The proposals in frames with z along the verticals, or along the given ones
-  // if no rotations are given.
+  // Adds the proposals for matches that were rotated into frames with z up by
+  // `level_from_source` and `level_from_target`, the identity for the given
+  // vertical.
   void Propose(const PointsRef& matched_source,
                const PointsRef& matched_target,
                const std::string& origin,
@@ -134,7 +136,8 @@ class PoseSearch {
   GeometricScorer scorer_;
   std::unique_ptr<Aligner> aligner_;
 
-  // From the clouds to frames with z along the verticals of their walls.
+  // Rotations from the clouds to frames with z along the vertical of their
+  // walls.
   Eigen::Matrix3d level_from_source_;
   Eigen::Matrix3d level_from_target_;
   bool is_inclined_ = false;

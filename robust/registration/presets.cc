@@ -17,7 +17,8 @@ namespace {
 
 constexpr Eigen::Index kWantedVoxels = 15000;
 constexpr Eigen::Index kNumSamples = 1000;
-// Lengths are found on so many points; they hardly depend on more.
+// The number of points that lengths are determined from; more have little
+// effect.
 constexpr Eigen::Index kMaxExamined = 500'000;
 constexpr double kWantedSurfaceShare = 2.0 / 3.0;
 constexpr double kGrowth = 1.15;
@@ -34,7 +35,7 @@ RegistrationOptions InProportionTo(double voxel_size) {
   return options;
 }
 
-// Without what the paper and its code do not have.
+// Options without the extensions that the paper and its code do not have.
 RegistrationOptions WithoutExtensions() {
   RegistrationOptions options;
   options.front_end.voxel_size = 0.3;
@@ -73,8 +74,9 @@ Points Thinned(const Points& points) {
 }
 
 // The logarithm of the least of 256 sizes in (low, high] at which the points
-// keep at most kWantedVoxels, or `high`. Most points are on surfaces, so that
-// their number falls with the square of the size, which tells where to look.
+// keep at most kWantedVoxels, or `high`. Most points are on surfaces, so their
+// number falls with the square of the size. This predicts which size to try
+// next.
 double FindSize(const Points& points, double low, double high) {
   constexpr int kNumSizes = 256;
   constexpr double kFall = 2.0;
@@ -115,7 +117,7 @@ double SizeForWantedVoxels(const Points& points) {
   return std::exp(high);
 }
 
-// Median distance of a point from its nearest neighbour elsewhere [m].
+// Median distance of a point from its nearest neighbor [m].
 double TypicalSpacing(const Points& points) {
   const KdTree tree(points);
   const Eigen::Index n = points.cols();
@@ -132,7 +134,8 @@ double TypicalSpacing(const Points& points) {
   return std::sqrt(*middle);
 }
 
-// With several points in most voxels, the spacing is below their size.
+// If most voxels contain several points, the spacing is below the voxel size
+// and not needed.
 double SpacingIfSparse(const Points& points) {
   return points.cols() > 4 * kWantedVoxels ? 0.0 : TypicalSpacing(points);
 }
@@ -144,8 +147,8 @@ double SurfaceShareOfVoxels(const Points& points, double voxel_size) {
   return voxels ? SurfaceShare(KdTree(*voxels), radius) : 1.0;
 }
 
-// `voxel_size` enlarged until normals are those of surfaces; as it is where no
-// size in reach does that.
+// Enlarges `voxel_size` until most normals are those of surfaces. Returns it
+// unchanged if no size up to kMaxGrowth times as large achieves that.
 double SizeForSurfaces(const Points& points, double voxel_size) {
   const double largest = kMaxGrowth * voxel_size;
   double size = voxel_size;

@@ -31,17 +31,18 @@ std::optional<RegistrationOptions> MakePreset(const std::string& name);
 
 // Options for these clouds from their density and extent. The voxel size starts
 // as the size at which the larger cloud keeps about 15,000 points, but at least
-// the typical distance between neighbors in the sparser cloud. It is enlarged,
-// at most 16 times, until two thirds of the points have a surface within the
-// radius of the normals (features/surface_share.h). Sensors with few beams need
-// this. Clouds without points give 0.3 m.
+// the typical distance between neighbors in the sparser cloud. It is then
+// enlarged, at most by a factor of 16, until two thirds of the points have a
+// surface within the radius of the normals (features/surface_share.h), or not
+// at all if no such size suffices. Sensors with few beams need this. Clouds
+// without points give 0.3 m.
 RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target);
 
 // Options for a given voxel size > 0 [m]. The other lengths are in proportion
-// as in kitti. If nothing is registered, twice and 3.5 times these lengths are
-// tried, at each of them also with the scans' own verticals. The pose is
-// refined by VG-ICP.
+// as in kitti. If no pose is registered, 2 and 3.5 times these lengths are
+// tried, each also with verticals from the scans. The pose is refined by
+// VG-ICP.
 RegistrationOptions MakeAutoOptions(double voxel_size);
 
 }  // namespace quatro

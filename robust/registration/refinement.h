@@ -8,9 +8,8 @@
 //
 //   the alignment converged and the surfaces constrain every direction,
 //   the pose moved by at most max_translation and max_rotation, and
-//   it is consistent with the matches: let n be the number of matches with
-//   residual |q_i - R p_i - t| of at most two noise bounds. The refined pose
-//   must keep at least min_kept_matches n of the unrefined pose.
+//   the number of matches with a residual |q_i - R p_i - t| of at most two
+//   noise bounds is at least min_kept_matches times that of the unrefined pose.
 //
 // Otherwise the unrefined pose is kept, and the message says why.
 
@@ -75,7 +74,7 @@ AlignmentSummary Align(const DescribedCloud& source,
                        const RefinementOptions& options);
 
 // Column i of `matched_source` is matched with column i of `matched_target`;
-// `noise_bound` [m] is theirs.
+// `noise_bound` is that of the matches [m].
 RefinementSummary Refine(const DescribedCloud& source,
                          const DescribedCloud& target,
                          const PointsRef& matched_source,

@@ -63,7 +63,9 @@ RegistrationSummary RegisterMatches(const Matches& matches,
     return summary;
   }
   if (options.ins.gravity == Gravity::kNone) {
-    summary.error = "gravity is none, which needs clouds, not only matches";
+    summary.error =
+        "gravity is none, which needs clouds; with matches alone, state which "
+        "way is up";
     return summary;
   }
   if (options.refinement.method != RefinementMethod::kNone) {
@@ -114,8 +116,8 @@ RegistrationSummary RegisterMatched(const MatchedClouds& clouds,
   if (!MayLevelByScans(prepared.options)) {
     if (prepared.options.ins.gravity == Gravity::kNone) {
       summary.error =
-          "gravity is none, which needs a method that searches other poses, "
-          "and neither an INS nor bounds";
+          "gravity is none, which method " + options.method +
+          " cannot use, nor any with an INS or bounds; state which way is up";
       return summary;
     }
     return RegisterIn(MakeLevelFrames(options.ins), clouds, prepared);

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The two doors: two clouds, or matched points, in; a pose and a verdict out.
+// The two entry points: Register() for two clouds, RegisterMatches() for
+// matched points. Both return a pose and a verdict.
 //
 //   clouds -> front end -> matches -> estimator -> covariance -> refinement
 //          -> geometric evidence -> verdict
 //
-// Everything behind the doors is leveled: z is up
-// (robust/registration/level.h).
+// Both work in level frames, with z up (robust/registration/level.h).
 
 #ifndef QUATRO_ROBUST_REGISTRATION_REGISTRATION_H_
 #define QUATRO_ROBUST_REGISTRATION_REGISTRATION_H_
@@ -35,7 +35,7 @@ RegistrationSummary RegisterMatches(const Matches& matches,
 // Registers many sources against one target.
 class Target {
  public:
-  // Keeps the cloud and the options.
+  // Stores the cloud and the options.
   Target(PointCloud cloud, RegistrationOptions options)
       : cloud_(std::move(cloud)), options_(std::move(options)) {}
 

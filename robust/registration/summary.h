@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// What a registration reports: the pose, the verdict, and what each stage made
-// of the clouds or the matches.
+// The report of a registration: the pose, the verdict, and the result of each
+// stage.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_SUMMARY_H_
 #define QUATRO_ROBUST_REGISTRATION_SUMMARY_H_
@@ -39,25 +39,25 @@ struct RegistrationSummary {
   Eigen::Index num_target_voxels = 0;
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  // The final pose, refined if a refinement was accepted, and its covariance:
+  // The final pose, refined if a refinement was accepted. Its covariance is
   // that of the pose before refinement.
   PoseSummary solution;
   std::optional<RefinementSummary> refinement;  // If it was tried.
 
-  // Which directions the surfaces constrain. The others are also among the
-  // unobservable directions of solution.covariance.
+  // Which directions the surfaces constrain. Directions that they do not
+  // constrain are also in solution.covariance.
   std::optional<SurfaceObservability> surface_observability;
 
-  // The rung that gave the pose (robust/registration/ladder.h); 0 is the
-  // estimator by itself.
+  // The rung that found the pose (robust/registration/ladder.h); 0 is the
+  // estimator alone.
   int rung = 0;
 
-  // The noise bound and the lengths of the front end are those of the options
-  // times this (PoseSearchOptions::scale_factors).
+  // The lengths of the options were multiplied by this factor
+  // (PoseSearchOptions::scale_factors).
   double scale_factor = 1.0;
 
-  // What the level frames came from: "given", or the scans' own "matches" or
-  // "normals" (robust/registration/gravity.h).
+  // The source of the level frames: "given", or "matches" or "normals" of the
+  // scans (robust/registration/gravity.h).
   std::string leveled_by = "given";
 
   // The candidates of all rungs that were tried, the best of each rung first.
@@ -66,7 +66,7 @@ struct RegistrationSummary {
   std::vector<StageTime> stage_times;
   double total_seconds = 0.0;
 
-  // Set iff there is a pose; the verdict says whether it can be relied on.
+  // Set iff there is a pose. The verdict says whether it can be trusted.
   const std::optional<Rigid3>& target_from_source() const {
     return solution.target_from_source;
   }

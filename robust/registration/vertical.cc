@@ -17,7 +17,8 @@ constexpr Eigen::Index kMaxNormals = 4000;
 constexpr int kMinNormals = 50;
 
 // The middle eigenvalue of the weighted mean of n n^T must be at least this, or
-// the normals have one direction and any perpendicular one may be the vertical.
+// the normals have one direction, and any perpendicular direction may be the
+// vertical.
 constexpr double kMinSpread = 0.02;
 
 }  // namespace

@@ -28,7 +28,7 @@ Contacts FindContacts(const DescribedCloud& a,
                       const Rigid3& b_from_a,
                       double max_distance,
                       int num_threads) {
-  // A place that is not finite has no contact.
+  // Points without a normal become NaN, which has no contact.
   const Points& points = a.points();
   Points places(3, points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {

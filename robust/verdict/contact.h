@@ -17,7 +17,7 @@
 
 namespace quatro {
 
-// For each point of a the index of the nearest point of b, or kNoContact.
+// For each point of a, the index of the nearest point of b, or kNoContact.
 // Points without a normal have no contact.
 constexpr std::int32_t kNoContact = -1;
 using Contacts = std::vector<std::int32_t>;
@@ -29,7 +29,7 @@ Contacts FindContacts(const DescribedCloud& a,
                       double max_distance,
                       int num_threads);
 
-// The contacts of either scan in the other at one pose.
+// The contacts of each scan in the other at one pose.
 struct MutualContacts {
   Contacts of_source;
   Contacts of_target;

@@ -42,7 +42,7 @@ void AddOverlap(const std::vector<StructurePoint>& structure,
   }
 }
 
-// The value that `share` of the values are smaller than; 0 without values.
+// The quantile `share` of the values; 0 if there are none.
 double Quantile(double share, std::vector<double>* values) {
   if (values->empty()) return 0.0;
   const auto at =
@@ -52,8 +52,9 @@ double Quantile(double share, std::vector<double>* values) {
   return *at;
 }
 
-// Halfway between the ends rather than the mean, which is near the sensors,
-// where most points are: a hall is symmetric about its middle.
+// The middle between the 2 % and 98 % quantiles along a direction. The mean is
+// near the sensors, where most points are, but a hall is symmetric about its
+// middle.
 Eigen::Vector3d MiddleAlong(const Eigen::Vector3d& direction,
                             const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> along;
@@ -72,7 +73,8 @@ std::optional<RangeImage> ImageOf(const DescribedCloud& cloud,
   return RangeImage(cloud.points(), cloud.sensor, voxel_size);
 }
 
-// Adds the structure of a that lies in what b saw.
+// Counts the structure of a that overlaps b, and the structure of a in space
+// that b saw to be free.
 void AddFreeSpace(const std::vector<StructurePoint>& structure,
                   const DescribedCloud& a,
                   const std::optional<RangeImage>& b,
@@ -158,7 +160,7 @@ class EvidenceMeasurement {
     return structure;
   }
 
-  // Without contacts at hand.
+  // Like Find(), but finds the contacts, too.
   MutualStructure FindAnew(const Rigid3& target_from_source) const {
     const int num_threads_each = std::max(1, NumThreadsToUse(num_threads_) / 2);
     MutualStructure structure;
@@ -199,7 +201,8 @@ class EvidenceMeasurement {
     return sum;
   }
 
-  // Sets the residual and (1), and returns the middle of what overlaps.
+  // Sets the residual and the results of (1). Returns the middle of the
+  // overlapping points.
   Eigen::Vector3d SetWeakestDirection(const MutualStructure& structure,
                                       const Rigid3& target_from_source,
                                       GeometricEvidence* evidence) const {

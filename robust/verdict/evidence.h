@@ -34,7 +34,7 @@
 
 namespace quatro {
 
-// When points overlap, and where rivals are searched.
+// When points overlap, and how rivals are searched for.
 struct EvidenceOptions {
   // A point overlaps if the other scan has a point within this many voxel
   // sizes: the mean of a voxel may be off by about the size of the voxel, and
@@ -43,7 +43,7 @@ struct EvidenceOptions {
 
   GeometricRivalOptions rival;
 
-  // This distance in meters.
+  // The distance [m] within which points overlap.
   double MaxDistance(double voxel_size) const {
     return max_distance_in_voxels * voxel_size;
   }
@@ -52,8 +52,8 @@ struct EvidenceOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Counts the structure points of each cloud, provided that the other cloud is a
-// scan.
+// The numbers of structure points of both clouds. The points of a cloud count
+// only if the other cloud is a scan.
 struct FreeSpace {
   Eigen::Index num_contradicted = 0;
   Eigen::Index num_overlapping = 0;
@@ -81,7 +81,7 @@ struct GeometricEvidence {
   double weakest_share = 0.0;  // In [0, 1/2].
 
   GeometricRival rival;
-  FreeSpace rival_free_space;  // A contradicted rival does not count.
+  FreeSpace rival_free_space;  // Evidence against the rival.
 
   // How much better the pose is than its rival, in [-1, 1].
   double Distinctness() const { return rival.overlap - rival.rival_overlap; }

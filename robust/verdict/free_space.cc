@@ -15,7 +15,7 @@ constexpr int kNumColumns = 512;
 constexpr int kNumRows = 128;
 constexpr double kCell = 2.0 / kNumRows;  // [rad], about.
 
-// How many cells to either side a point makes known and blocks.
+// How many cells to either side a point makes known, and how many it blocks.
 struct Reach {
   int sees;
   int blocks;

@@ -43,7 +43,7 @@ class RangeImage {
 
   // The state of a place as observed by the sensor.
   enum class Sight {
-    kUnknown,  // No beam went there, or the place is at the sensor.
+    kUnknown,  // No beam went there, or it is nearer than every point.
     kFree,     // Equation (2): the sensor saw farther.
     kNotFree,  // At the observed surface, or behind it.
   };

@@ -59,8 +59,8 @@ class Comparison {
     target_turned_ = source_grid_.Turn(target_sample_, Inverse(turned_));
   }
 
-  // o(D X), or -1 if too few points are left to compare, or at most
-  // `least_wanted` if o(D X) is at most that.
+  // Returns o(D X), or -1 if too few points are in range. If o(D X) is at most
+  // `least_wanted`, may return any value up to `least_wanted`.
   double Count(const Eigen::Vector3d& shift, double least_wanted = -1.0) {
     const Eigen::Vector3d shift_in_target = InTarget(shift);
     const OverlapCount of_source =
@@ -138,7 +138,8 @@ Move FindBestShift(Comparison& comparison,
   return best;
 }
 
-// Uphill by halving steps, one parameter after the other.
+// Increases the overlap, one parameter after the other, by steps that are
+// halved in each round.
 Move Refine(Comparison& comparison,
             Move best,
             double step,
@@ -233,7 +234,8 @@ GeometricRival FindGeometricRival(const DescribedCloud& source,
   GeometricRival result;
   result.rival_target_from_source = target_from_source;
   result.overlap = std::max(0.0, Comparison(comparison).Overlap({}));
-  // Two neighboring samples with max_distance on either side leave no gap.
+  // Steps of 1.5 max_distance leave no gap, because points overlap within
+  // max_distance to either side.
   const double step = std::max(1.5 * max_distance, options.max_shift / 40.0);
   constexpr std::array kYaws = {0.0, M_PI, 0.5 * M_PI, -0.5 * M_PI};
   std::array<Move, kYaws.size()> best_of;

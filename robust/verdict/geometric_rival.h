@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The geometric rival: the best other pose by the overlap of structure.
+// The geometric rival: the other pose with the largest overlap of structure.
 //
 // In a corridor a pose can slide along the walls; in a hall with equal ends it
 // can be rotated by 180 deg. There the geometry of the scans does not show
 // which pose is correct, however many matches are inliers. Let o(X) be the
-// overlap at pose X by robust/verdict/structure_grid.h, the smaller of both
-// directions. Then
+// overlap at pose X (robust/verdict/structure_grid.h), the smaller one of
+// source in target and target in source. Then
 //
 //   rival = argmax { o(D X) : D moves the middle by > min_shift
 //                             or rotates by > 10 deg },                     (1)
@@ -30,15 +30,16 @@ namespace quatro {
 
 // The search for the rival.
 struct GeometricRivalOptions {
-  // Shifts [voxel sizes]. Voxels of 0.3 m make them 2, 12 and 8 m.
+  // Shifts [voxel sizes]: 2, 12 and 8 m for voxels of 0.3 m.
   double min_shift = 20.0 / 3.0;
   double max_shift = 40.0;               // Without rotation.
   double max_turned_shift = 80.0 / 3.0;  // After a rotation.
 
-  // A pose outside of them is no rival.
+  // A pose outside of the bounds is not a rival.
   PoseBounds bounds;
 
-  // Structure points of each scan to look for the rival, and to compare it.
+  // The numbers of structure points of each scan, first for the search, then
+  // for the comparison of the rival with the pose.
   Eigen::Index num_search_points = 300;
   Eigen::Index num_compared_points = 2000;
 
@@ -46,7 +47,7 @@ struct GeometricRivalOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The best other pose by overlap.
+// The other pose with the largest overlap.
 struct GeometricRival {
   double overlap = 0.0;             // o(X), in [0, 1].
   double rival_overlap = 0.0;       // o(rival); 0 without a rival.
@@ -57,12 +58,12 @@ struct GeometricRival {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // [m]
 };
 
-// `middle` is that of the overlapping structure. `direction` is the horizontal
-// unit vector along which shifts are sampled most finely. Both are in the
-// target's frame. Overlap is computed from structure in the useful range of the
-// other sensor; a rival must have at least half as many such points as the pose
-// in both scans. `max_distance` is that of the overlap and `voxel_size` that of
-// the clouds, both in [m].
+// `middle` is the middle of the overlapping structure. `direction` is the
+// horizontal unit vector along which shifts are sampled most finely. Both are
+// in the target's frame. Overlap is computed from structure in the useful range
+// of the other sensor; a rival must have at least half as many such points as
+// the pose in both scans. Points within `max_distance` overlap; `voxel_size` is
+// that of the clouds, both in [m].
 GeometricRival FindGeometricRival(const DescribedCloud& source,
                                   const DescribedCloud& target,
                                   const Rigid3& target_from_source,

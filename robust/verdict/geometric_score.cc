@@ -13,7 +13,8 @@ namespace {
 constexpr Eigen::Index kNumPoints = 500;
 constexpr double kFewInRange = 25.0;  // c of (1).
 
-// Points of a sample that the other scan sees.
+// Points of a sample in directions that the other scan observed, and how many
+// of them are in free space.
 struct SightCount {
   int num_free = 0;
   int num_known = 0;

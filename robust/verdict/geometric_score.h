@@ -2,21 +2,21 @@
 // SPDX-License-Identifier: MIT
 // A quick score by which candidate poses of two scans are compared,
 //
-//   score(T) = min over both ways of  overlapping / (in range + c)
+//   score(T) = min over both scans of  overlapping / (in range + c)
 //              * (1 - contradicted share)^5,                               (1)
 //
 // from samples of the structure (robust/verdict/structure.h) of each scan. A
 // point is in range and overlapping by robust/verdict/structure_grid.h; it is
 // contradicted if the other scan saw free space there
-// (robust/verdict/free_space.h). Along a facade with a period, a pose that is
-// off by the period overlaps nearly as well as the correct one, and a
-// contradicted share of a tenth is all that tells them apart. The constant c
-// lowers the score of poses that bring few points into range, where a large
-// share may be chance.
+// (robust/verdict/free_space.h). Along a periodic facade, a pose that is off by
+// one period overlaps nearly as well as the correct one, and may differ only by
+// a contradicted share of a tenth; hence the fifth power. The constant c lowers
+// the score of poses that bring few points into range, where a large share may
+// be chance.
 //
-// The score orders candidates. Whether the best one is correct is decided by
-// the verdict, which measures the same on all points (robust/verdict/
-// evidence.h).
+// The score only orders candidates. The verdict decides whether the best one is
+// correct. It measures overlap and free space on all points
+// (robust/verdict/evidence.h).
 
 #ifndef QUATRO_ROBUST_VERDICT_GEOMETRIC_SCORE_H_
 #define QUATRO_ROBUST_VERDICT_GEOMETRIC_SCORE_H_
@@ -46,7 +46,7 @@ struct GeometricScore {
   }
 };
 
-// Built once for a pair of scans; a pose then takes tens of microseconds.
+// Built once for a pair of scans. Each score then takes tens of microseconds.
 class GeometricScorer {
  public:
   // Points within `max_distance` overlap; `voxel_size` is that of the clouds,
@@ -61,7 +61,7 @@ class GeometricScorer {
   GeometricScore At(const Rigid3& target_from_source) const;
 
  private:
-  // One scan, as seen by the other.
+  // The structure and the range image of one scan.
   struct Scan {
     StructureGrid grid;
     StructureSample sample;

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kYawStep = 5.0 * M_PI / 180.0;
 
-// More matches add no information about where the inliers are.
+// This many inliers suffice to find a rotation about them.
 constexpr Eigen::Index kMaxSameMatches = 500;
 
-// The columns whose value is within `bound` of the largest consensus on the
-// axis.
+// The columns whose value on the axis is within `bound` of the center of the
+// largest consensus.
 std::vector<Eigen::Index> FindConsensus(
     const Points& offsets,
     int axis,

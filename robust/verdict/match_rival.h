@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The match rival: the best other pose by the number of inliers.
+// The match rival: the other pose with the most inliers.
 //
-// Two kinds of rivals are searched. D is the motion from the pose to the rival:
+// There are two kinds of rivals. D is the motion from the pose to the rival:
 //
 //   same matches   most inliers of the pose are also inliers of the rival. They
 //                  lie on one pole or close together, where a yaw moves them
@@ -33,7 +33,7 @@
 
 namespace quatro {
 
-// Which poses count as rivals, and how thoroughly they are searched.
+// Which poses count as rivals, and how thorough the search is.
 struct MatchRivalOptions {
   // A rival differs from the pose in rotation by at least min_rotation [rad],
   // or moves the mean of the inliers by at least min_shift_factor noise bounds.
@@ -43,7 +43,7 @@ struct MatchRivalOptions {
 
   // The number of random pairs and of matches in the search
   // (robust/estimators/arc_consensus.h). A rival with a share e of the matches
-  // is found if num_pairs * e^2 >= 50.
+  // as inliers is found if num_pairs * e^2 >= 50.
   Eigen::Index num_pairs = 200'000;
   Eigen::Index max_num_matches = 20'000;
 
@@ -57,7 +57,7 @@ struct MatchRivalOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The best other pose by inliers.
+// The other pose with the most inliers.
 struct MatchRival {
   Rigid3 target_from_source;
   Eigen::Index num_inliers = 0;  // l

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The overlap: the share of the structure of one aligned scan that is also in
-// the other.
+// The overlap: the share of the structure of one scan that is also in the other
+// scan, at a given pose.
 //
 // Structure means points whose normal is more than 45 deg from the vertical.
 // The ground is no evidence, because it fits under any yaw. A structure point
 // overlaps if the nearest point of the other scan is within max_distance and
 // the angle between their normals is below 37 deg (|cos| > 0.8). Only structure
-// points within the useful range of the other sensor count, which includes
-// three quarters of that scan's points: farther away even correct poses have
+// points within the useful range of the other sensor count, which contains
+// three quarters of that sensor's points. Farther away, even correct poses have
 // little overlap.
 //
 // On 47 real pairs with correct poses the overlap was 0.34-0.93; on 111 pairs

@@ -18,8 +18,8 @@ inline constexpr double kMaxVertical = 0.7071;
 // Whether a point with this normal is structure; false for a zero normal.
 bool IsStructure(const Eigen::Vector3d& normal);
 
-// The distance from the sensor that holds three quarters of the points [m]; 0
-// without points.
+// The distance from the sensor within which three quarters of the points lie
+// [m]; 0 without points.
 double UsefulRange(const DescribedCloud& cloud);
 
 }  // namespace quatro

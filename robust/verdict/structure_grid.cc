@@ -12,13 +12,13 @@ namespace {
 constexpr int kNumSectors = 7;
 constexpr std::uint8_t kInRange = 1 << kNumSectors;
 
-// max_distance in cells. Cells are larger if there would be more than
-// kMaxNumCells.
+// The ratio of max_distance to the cell size. Cells are larger if there would
+// be more than kMaxNumCells.
 constexpr double kCellsPerDistance = 5.0 / 3.0;
 constexpr double kMaxNumCells = 1 << 23;
 
 // Azimuth of the normal in sectors, in [0, kNumSectors). Opposite normals have
-// the same.
+// the same azimuth.
 double SectorOf(const Eigen::Vector3d& normal) {
   const double turns = std::atan2(static_cast<float>(normal.y()),
                                   static_cast<float>(normal.x())) /

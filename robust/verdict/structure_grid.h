@@ -37,7 +37,7 @@ StructureSample SampleStructure(const DescribedCloud& cloud,
 // A rotated sample, to be evaluated at many shifts.
 struct TurnedSample {
   Eigen::Matrix3Xf points;            // In cells, from the grid's corner.
-  std::vector<std::uint8_t> sectors;  // Bits that match its normals.
+  std::vector<std::uint8_t> sectors;  // Bits that match each normal.
 };
 
 // Points of a sample in useful range, and those that overlap.

@@ -9,12 +9,13 @@
 // w_j >= 0, so that more evidence never lowers P.
 //
 //   surprise            ln(1 - log10 NFA) of the pose      0 .. 3
-//   margin              over the match rival               0 .. 3
+//   margin              z against the match rival          0 .. 3
 //   overlap             overlap of the structure           0 .. 0.3
 //   free_space          1 - contradicted share             0.5 .. 0.95
-//   distinctness        overlap over that of the rival     0 .. 0.15
-//   rival_refuted       its contradicted share over ours   0 .. 0.1
-//                       or, if more, the distinctness      0.4 .. 0.5
+//   distinctness        overlap minus that of the rival    0 .. 0.15
+//   rival_refuted       contradicted share of the rival    0 .. 0.1
+//                       minus that of the pose, or, if
+//                       larger, the distinctness           0.4 .. 0.5
 //   held                log10 of the weakest share         -2 .. -0.8
 //
 // (robust/verdict/false_alarms.h, robust/verdict/match_rival.h,

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The covariance of an estimator's pose (solvers/ceres/pose_covariance.h) from
-// the matches it calls inliers, copies counted once, with a match off by the
-// noise bound at three standard deviations.
+// its inliers. Copies of a match count once. The noise bound is three standard
+// deviations of an inlier.
 //
-// The estimator says what it estimated (PoseSummary::model): roll and pitch of
-// one that finds the yaw alone are assumed, not certain.
+// If the estimator finds only the yaw (PoseSummary::model), the covariance
+// includes the uncertainty of the assumed roll and pitch.
 
 #ifndef QUATRO_ROBUST_VERDICT_SUMMARY_COVARIANCE_H_
 #define QUATRO_ROBUST_VERDICT_SUMMARY_COVARIANCE_H_

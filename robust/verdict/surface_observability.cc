@@ -41,7 +41,8 @@ OverlappingPoints FindOverlapping(const DescribedCloud& a,
   return result;
 }
 
-// The sums of (1) and of its pieces over one scan's points.
+// Sums over the overlapping points of one scan, for (1), the scatter and the
+// weakest level axis.
 struct Sums {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   Matrix6 information = Matrix6::Zero();
@@ -65,7 +66,7 @@ Sums SumUp(const OverlappingPoints& met, const Eigen::Vector3d& center) {
   return sums;
 }
 
-// In [0, 1].
+// The part of a direction, in [0, 1].
 double Part(const DirectionInformation& direction,
             const SurfaceObservability& result) {
   if (direction.freedom == Freedom::kTranslation) return direction.information;
@@ -130,7 +131,8 @@ std::optional<SurfaceObservability> MeasureSurfaceObservability(
     normal = target_from_source.rotation * normal;
   }
 
-  // From a point first, which keeps the digits of coordinates far out.
+  // Sums differences from one point, to keep the digits of coordinates far from
+  // the origin.
   const auto n = static_cast<double>(result.num_overlapping);
   const Eigen::Vector3d origin = of_source.points.empty()
                                      ? of_target.points.front()

@@ -9,9 +9,10 @@
 // The sum is over the N points of either scan that overlap: the other scan has
 // a point within the contact distance, and its normal, which is n_i, is within
 // 37 deg (|cos| > 0.8). c is the mean of the x_i. A is in the target frame,
-// rotation first. The part of a direction is its share of A, for a rotation
-// divided by the mean squared distance from its axis: 1 for a motion along the
-// normals everywhere, 0 for a motion along the surfaces.
+// rotation first. The part of a direction is its information in A; for a
+// rotation, it is divided by the mean squared distance of the points from the
+// axis. It is 1 for a motion along the normals everywhere, and 0 for a motion
+// along the surfaces.
 //
 // In a corridor no surface faces the axis: walls, floor and ceiling fit at any
 // position along it, even if the matches seem to constrain that position.
@@ -49,9 +50,9 @@ struct SurfaceObservability {
   Eigen::Index num_overlapping = 0;  // Points of both scans.
   Eigen::Index num_structure = 0;    // Overlapping points that are structure.
 
-  // The horizontal direction d that the fewest normals of overlapping structure
-  // lie along, and its share  sum (n.d)^2 / sum (n_x^2 + n_y^2)  in [0, 1/2]:
-  // 0 in a corridor, 1/2 if all directions are alike.
+  // The horizontal direction d that the normals of overlapping structure
+  // constrain least, and its share  sum (n.d)^2 / sum (n_x^2 + n_y^2):  0 in a
+  // corridor, 1/2 if all directions are constrained alike.
   Eigen::Vector3d weakest_level_axis = Eigen::Vector3d::Zero();
   double weakest_level_share = 0.0;
 
@@ -59,8 +60,8 @@ struct SurfaceObservability {
 };
 
 // Both clouds are level: z is up. `contacts` are those at this pose. Returns
-// nullopt if fewer than 50 points overlap. With source and target swapped the
-// result is the same, moved.
+// nullopt if fewer than 50 points overlap. With source and target swapped, the
+// result is the same in the frame of the other cloud.
 std::optional<SurfaceObservability> MeasureSurfaceObservability(
     const DescribedCloud& source,
     const DescribedCloud& target,

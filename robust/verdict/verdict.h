@@ -13,7 +13,8 @@
 //                v
 //   registered, ambiguous, degenerate or insufficient, and the reason
 //
-// A pose is correct within 2 m and 10 deg of the truth, the paper's criterion.
+// A pose is correct if it is within 2 m and 10 deg of the true pose, the
+// paper's criterion.
 
 #ifndef QUATRO_ROBUST_VERDICT_VERDICT_H_
 #define QUATRO_ROBUST_VERDICT_VERDICT_H_
@@ -49,7 +50,7 @@ struct VerdictOptions {
   // The least probability of a correct pose.
   double min_probability = 0.8;
 
-  MatchRivalOptions rival;  // Register() replaces seed, threads and vertical.
+  MatchRivalOptions rival;  // Register() replaces seed, threads and bounds.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -67,7 +68,7 @@ struct Verdict {
   std::vector<Feature> features;
 
   Eigen::Index num_matches = 0;           // Copies counted once.
-  Eigen::Index num_inliers = 0;           // With the pose.
+  Eigen::Index num_inliers = 0;           // Of the pose.
   std::vector<FalseAlarms> false_alarms;  // By stage; the last is the pose's.
   std::optional<MatchRival> rival;
   std::optional<GeometricEvidence> geometry;

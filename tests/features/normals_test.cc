@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "features/normals.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/base/degree.h"
 #include "tests/support/random_problems.h"
 
 namespace quatro {

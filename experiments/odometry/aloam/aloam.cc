@@ -18,7 +18,8 @@ namespace {
 // The minimum number of edge and plane features; a scan with fewer is unusable.
 constexpr Eigen::Index kMinFeatures = 10;
 
-// A round that does not move the pose; the next round would not move it either.
+// Whether a round did not move the pose; the next round would not move it
+// either.
 bool IsStill(const Rigid3& move) {
   return move.translation.norm() <= 1e-4 &&
          AngleBetween(move.rotation, Eigen::Matrix3d::Identity()) <= 1e-5;

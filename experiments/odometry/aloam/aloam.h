@@ -6,16 +6,16 @@
 //   1. to the previous scan, starting from the constant-velocity guess,
 //   2. to the map of all previous scans, starting from the result of 1.
 //
-// Both steps find new matches num_rounds times, or until the pose stops moving.
-// Before there is a velocity, the second scan may be meters ahead, so step 1
-// then has start_rounds. The map keeps one point per voxel and feature kind
-// around the sensor.
+// Both steps find new matches num_rounds times; step 1 stops earlier if the
+// pose no longer moves. Before there is a velocity, the second scan may be
+// meters ahead, so step 1 then has start_rounds. The map keeps one point per
+// voxel and feature kind around the sensor.
 //
 // Differences from A-LOAM: step 2 runs for every scan, and its pose feeds the
 // next guess. The map is one grid around the sensor instead of cubes of 50 m.
 // Hidden points are rejected (LOAM's rule, which A-LOAM omits). A pose that the
-// matches do not constrain is rejected. A-LOAM starts with two rounds as well.
-// Scans are not corrected for motion.
+// matches do not constrain is rejected. A-LOAM uses two rounds for the second
+// scan, too. Scans are not corrected for motion.
 //
 // A scan whose rings cannot be identified is lost.
 //

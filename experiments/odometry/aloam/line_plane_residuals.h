@@ -19,8 +19,8 @@
 
 namespace quatro {
 
-// A point and the line or plane on which it should be: a point of that line or
-// plane, and the unit direction of the line or unit normal of the plane.
+// A point and the line or plane that it matches, given by one of its points and
+// by the unit direction of the line or the unit normal of the plane.
 struct SurfaceMatch {
   Eigen::Vector3d source;     // p [m]
   Eigen::Vector3d point;      // a [m]

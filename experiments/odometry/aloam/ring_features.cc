@@ -17,7 +17,8 @@ namespace {
 
 constexpr Eigen::Index kHalfWindow = 5;
 
-// Consecutive neighbors closer than this to each other are skipped [m^2].
+// Neighbors of a chosen point are skipped up to the first step along the ring
+// whose squared length exceeds this [m^2].
 constexpr double kCloseSquared = 0.05;
 
 // Collects points of one kind.
@@ -59,7 +60,8 @@ double SquaredStep(const Points& p, Eigen::Index i) {
   return (p.col(i + 1) - p.col(i)).squaredNorm();
 }
 
-// The points that must not be chosen because of their neighbors.
+// The points that must not be chosen: those that may be hidden from elsewhere
+// and those on surfaces nearly parallel to the beam.
 std::vector<bool> FindHidden(const Points& p,
                              const RingFeatureOptions& options) {
   const Eigen::Index n = p.cols();
@@ -172,7 +174,7 @@ void ChooseFromRing(const Points& p,
   std::string error;
   const std::optional<Points> sampled =
       SampleVoxels(rest.leftCols(num_rest), options.less_flat_voxel, &error);
-  if (!sampled) return;  // Wider than the grid: unusable.
+  if (!sampled) return;  // The ring is too wide for the voxel grid.
   for (const auto& point : sampled->colwise()) {
     chosen->less_flat.Add(point, ring);
   }

@@ -19,9 +19,10 @@ using Ring = std::vector<Eigen::Index>;
 constexpr int kMinNumRings = 4;
 constexpr int kMaxNumRings = 256;
 
-// Order: the azimuth may decrease by kMaxBack before a new ring starts. The
-// lasers are at different places, so a point a meter away appears 8 deg off. At
-// least kMinForwardShare of the steps must go forward by at most kMaxStep.
+// Order: a new ring starts if the azimuth decreases by more than kMaxBack. This
+// must be large, because the lasers are at different places, and the azimuth of
+// a point 1 m away is 8 deg off. At least kMinForwardShare of the steps must go
+// forward by at most kMaxStep.
 constexpr double kMaxBack = 15.0 * kDegree;
 constexpr double kMaxStep = 5.0 * kDegree;
 constexpr double kMinForwardShare = 0.85;

@@ -13,7 +13,7 @@
 namespace quatro {
 namespace {
 
-// Rings up and down that count as neighboring.
+// The number of rings above and below that count as neighboring.
 constexpr int kBeside = 2;
 
 // Points closer than this [m] do not form a line. If the sine of their angle is

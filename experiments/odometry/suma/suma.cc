@@ -10,8 +10,8 @@
 namespace quatro {
 namespace {
 
-// The minimum for the first scan; with fewer surfels nothing can be tracked
-// later.
+// The minimum for the first scan; with fewer surfels, later scans cannot be
+// tracked.
 constexpr std::size_t kMinSurfels = 100;
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 // Disks no farther apart than this along a ray are on one surface [m].
 constexpr double kSameSurface = 0.1;
 
-// The maximum number of pixels from the center of a disk to its drawn edge.
+// A disk is drawn up to this number of pixels from its center.
 constexpr int kMaxReach = 4;
 
 double LogOdds(double probability) {
@@ -92,7 +92,7 @@ void Draw(std::int32_t index,
                        : position;
       if ((vertex - position).squaredNorm() > radius * radius) {
         if (pixel != middle) continue;
-        vertex = position;  // At least one pixel.
+        vertex = position;  // Each disk covers at least one pixel.
       }
       const double offset = (vertex - position).norm();
       double& offset_there = (*offsets)[static_cast<std::size_t>(pixel)];

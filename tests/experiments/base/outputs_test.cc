@@ -98,6 +98,27 @@ TEST_F(OutputsTest, AnEndingSaysTheFormat) {
   EXPECT_THAT(error, HasSubstr("--picture=a.jpg, must end with .png"));
 }
 
+TEST_F(OutputsTest, ALinkIsFollowedNotReplaced) {
+  std::string error;
+  Write("real.json", "old");
+  std::filesystem::create_symlink("real.json", "link.json");
+  ASSERT_TRUE(CanWriteAll({{"json", "link.json"}}, {}, &error)) << error;
+  EXPECT_TRUE(WriteOutputs({{"link.json", "new"}}, &error)) << error;
+  EXPECT_TRUE(std::filesystem::is_symlink("link.json"));
+  EXPECT_EQ(Read("real.json"), "new");
+}
+
+TEST_F(OutputsTest, WriteProtectedFilesAndPathsThroughFilesAreRefused) {
+  std::string error;
+  Write("a.json", "old");
+  EXPECT_FALSE(CanWrite("a.json/b.json", &error));
+  EXPECT_EQ(error, "a.json/b.json: a.json is a file, not a folder");
+  if (geteuid() == 0) GTEST_SKIP() << "root may write to any file";
+  std::filesystem::permissions("a.json", std::filesystem::perms::owner_read);
+  EXPECT_FALSE(CanWrite("a.json", &error));
+  EXPECT_THAT(error, HasSubstr("is write-protected"));
+}
+
 TEST_F(OutputsTest, AFolderIsNotStandardOutput) {
   std::string error;
   EXPECT_TRUE(CanBeFolder({"output", "./-"}, &error));

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "experiments/metrics/registration_metrics.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "features/base/degree.h"
 #include "tests/support/pair_results.h"
 
 namespace quatro {

@@ -22,6 +22,12 @@ TEST(BadFlag, TheNearestIsNamed) {
   EXPECT_EQ(TellBadFlag({"--test_voxelsize=0.1"}),
             "--test_voxelsize: unknown flag, did you mean --test_voxel_size; "
             "--help lists all");
+  EXPECT_EQ(TellBadFlag({"--test_voxel=0.1"}),
+            "--test_voxel: unknown flag, did you mean --test_voxel_size; "
+            "--help lists all");
+  EXPECT_EQ(TellBadFlag({"--the_method=quatro"}),
+            "--the_method: unknown flag, did you mean --method; --help lists "
+            "all");
   EXPECT_EQ(TellBadFlag({"-nothing_like_it"}),
             "--nothing_like_it: unknown flag; --help lists all");
 }

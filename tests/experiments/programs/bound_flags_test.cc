@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "experiments/programs/bound_flags.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "features/base/degree.h"
 #include "tests/support/run_program.h"
 
 namespace quatro {
@@ -48,6 +48,10 @@ TEST_F(BoundFlagsTest, AGuessIsInlineOrAFile) {
   ExpectQuarterTurn(GuessOf(Write("pose.txt", kRows)));
   ExpectQuarterTurn(
       GuessOf(Write("a,b.txt", std::string(kRows) + "0 0 0 1\n")));
+  ExpectQuarterTurn(
+      GuessOf(Write("answer.json",
+                    R"({"status": "registered", "target_from_source":
+          [[0, -1, 0, 4], [1, 0, 0, 5], [0, 0, 1, 6], [0, 0, 0, 1]]})")));
 }
 
 // As a file of poses with six digits has it.

@@ -256,6 +256,26 @@ TEST_F(RegisterProgramTest, DescriptorsOfTheWholeCloud) {
       "--fpfh_radius=1e300", "--fpfh_radius=1e+300", "must be <=");
 }
 
+TEST_F(RegisterProgramTest, AnOptionIsGivenOnce) {
+  ExpectRefusedFlag("--options=noise_bound=0.3;noise_bound=0.4",
+                    "noise_bound",
+                    "is given twice");
+}
+
+TEST_F(RegisterProgramTest, MatchesAreNoCloud) {
+  ExpectRefused("matches.csv",
+                "sx,sy,sz,tx,ty,tz\n1,2,3,4,5,6\n",
+                "has the columns of matches");
+}
+
+TEST_F(RegisterProgramTest, PointFloatsAreOfABin) {
+  const std::string path = Write("a.xyz", "1 2 3\n4 5 6\n");
+  ExpectBadInput("quatro_register",
+                 {"--source=" + path, "--target=" + path, "--point_floats=5"},
+                 "--point_floats",
+                 "neither cloud is one");
+}
+
 TEST_F(RegisterProgramTest, UnknownPreset) {
   ExpectRefusedFlag("--preset=moon", "--preset=moon", "must be auto");
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/estimators/arc_consensus.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "features/base/degree.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/estimators/polish.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "features/base/degree.h"
 #include "robust/estimators/consensus.h"
 #include "robust/estimators/quatro.h"
 #include "tests/support/matched_problems.h"

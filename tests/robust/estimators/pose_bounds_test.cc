@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/estimators/pose_bounds.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "features/base/degree.h"
 #include "features/base/random.h"
 #include "solvers/closed_form/gravity.h"
 #include "tests/support/random_problems.h"

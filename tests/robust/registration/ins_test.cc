@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/registration/ins.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "features/base/degree.h"
 #include "features/base/rigid3.h"
 #include "robust/estimators/arc_consensus.h"
 #include "robust/estimators/teaser.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "robust/verdict/match_rival.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "features/base/degree.h"
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 

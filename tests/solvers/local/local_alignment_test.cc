@@ -3,7 +3,6 @@
 // Tests that ICP, G-ICP and VG-ICP share.
 
 #include "solvers/local/local_alignment.h"
-#include "features/base/degree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "features/base/degree.h"
 #include "solvers/local/gicp.h"
 #include "solvers/local/icp.h"
 #include "solvers/local/vgicp.h"
