@@ -36,6 +36,8 @@ fi
 #   in_root NAME: a fresh copy of the bare root runs its steps, in_root.sh
 in_root() {
   local root=$folder/$1 code=0
+  # An interrupted run leaves it mounted.
+  while mountpoint -q "$root/proc"; do umount "$root/proc"; done
   rm -rf --one-file-system "$root"
   cp -a "$folder/bare" "$root"
   cp -L /etc/resolv.conf "$root/etc/resolv.conf"
