@@ -17,6 +17,7 @@ namespace quatro {
 // A cloud whose every row looks like this by chance is not expected.
 class TrajectoryRows {
  public:
+  // All rows have as many numbers as the first.
   void Add(const std::vector<double>& row);
 
   // Whether the rows so far can be those of a trajectory.
