@@ -31,7 +31,8 @@ class AnyVertical {
       // These frames already contain the tilt, so rung 0 suffices.
       Prepared one_rung = prepared_;
       one_rung.options.search.max_rung = 0;
-      const Method* teaser = FindMethod("teaser", &error_);
+      std::string ignored;
+      const Method* teaser = FindMethod("teaser", &ignored);
       TryOther(LevelByMatches(clouds_, teaser->make(prepared_.options)),
                "matches",
                one_rung);
@@ -88,7 +89,6 @@ class AnyVertical {
   const Prepared& prepared_;
   std::optional<RegistrationSummary> best_;
   double other_seconds_ = 0.0;
-  std::string error_;
 };
 
 }  // namespace

@@ -67,8 +67,8 @@ struct Verdict {
   // The features that the probability was computed from.
   std::vector<Feature> features;
 
-  Eigen::Index num_matches = 0;           // Copies counted once.
-  Eigen::Index num_inliers = 0;           // Of the pose.
+  Eigen::Index num_matches = 0;           // Duplicates count once.
+  Eigen::Index num_inliers = 0;           // Matches within the noise bound.
   std::vector<FalseAlarms> false_alarms;  // By stage; the last is the pose's.
   std::optional<MatchRival> rival;
   std::optional<GeometricEvidence> geometry;
