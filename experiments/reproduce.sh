@@ -54,12 +54,12 @@ drives=(00 02 05 06 07 08)
 if [[ $quick ]]; then
   # Scans are 4 m apart, except for odometry.
   spacing=4 gap=25 per_source=0 pairs_one=8 pairs_three=6 pairs_yaw=3 pairs_timing=4 frames=106
-  frames_inside=300 problems=10
+  frames_inside=300 problems=10 lc_gap=62 pairs_lc=3
   intervals=(1 5)
   odometries=quatro,quatro_c2f,gicp,suma,aloam
 else
   spacing=1 gap=100 per_source=3 pairs_one=200 pairs_three=200 pairs_yaw=50 pairs_timing=50 frames=600
-  frames_inside=0 problems=100
+  frames_inside=0 problems=100 lc_gap=250 pairs_lc=100
   intervals=(1 3 5)
   odometries=icp,gicp,vgicp,fgr,teaser,quatro,suma,aloam,quatro_c2f
 fi
@@ -121,6 +121,12 @@ draw table_one_paper success,recall
 run table_three "${loops[@]}" --sequences=06 --bins=0-2,2-4,4-6,6-8,8-10 --max_pairs="$pairs_three" \
     --methods=ransac10k,fgr,teaser,quatro,quatro_ins
 draw table_three distance
+# The rules of kitti_lc: more than 250 frames apart, kept pairs 2 m apart.
+run loops --protocol=loop --data="$drive_data" --preset="$preset" \
+    --sequences=00,02,05,06,07,08 --min_frame_gap="$lc_gap" --min_pair_spacing=2 \
+    --bins=0-10,10-20,20-30 --max_pairs="$pairs_lc" --limits=2/5,2/10,0.6/5 \
+    --methods=quatro,quatro_single,teaser,ransac10k,arc_consensus
+draw loops distance
 run table_two --protocol=odometry --data="$odometry_data" --sequences=00 --preset="$preset" \
     --intervals="$(IFS=,; echo "${intervals[*]}")" --max_frames="$frames" --methods="$odometries"
 run yaw --protocol=yaw --data="$building_data" --preset=indoor --intervals=5 --yaw_step_deg=30 \

@@ -17,8 +17,8 @@
 namespace quatro {
 namespace {
 
-// Sorts in ascending order. Uses a bit set if the indices are close together,
-// as they are in a sampled cloud.
+// Sorts in ascending order. Uses a bit set if the indices are dense, as they
+// are in a sampled cloud.
 void Sort(std::vector<std::int32_t>* indices,
           std::vector<std::uint64_t>* bits) {
   const auto [least, largest] =
@@ -43,7 +43,7 @@ void Sort(std::vector<std::int32_t>* indices,
   }
 }
 
-// Sixteen candidates.
+// Sixteen points, one per lane.
 struct alignas(64) Block {
   double x[kLanes], y[kLanes], z[kLanes];
   std::int32_t index[kLanes];

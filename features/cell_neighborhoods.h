@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The neighbors of every point of a cloud within a radius, found cell by cell.
-// All points of a cell (features/cells.h) have their neighbors in the same 27
-// cells. The points of these are sorted once per cell, and the distances to
-// them are computed 16 at a time. Distances and order are those of
-// KdTree::WithinRadius(), bit for bit.
+// The neighbors of every point p_i of a cloud within a radius,
+//
+//   N_i = { j : |p_j - p_i| <= radius },
+//
+// found cell by cell. All points of a cell (features/cells.h) have their
+// neighbors in the same 27 cells. The points of these cells are sorted once per
+// cell, and the distances to them are computed 16 at a time. Distances and
+// order are those of KdTree::WithinRadius(), bit for bit.
 
 #ifndef QUATRO_FEATURES_CELL_NEIGHBORHOODS_H_
 #define QUATRO_FEATURES_CELL_NEIGHBORHOODS_H_
@@ -17,8 +20,8 @@
 
 namespace quatro {
 
-// Returns nullopt if the cloud is wider than 2^20 radii or its width overflows.
-// `level` must not exceed BestSimdLevel().
+// The points must be finite. Returns nullopt unless the width of the cloud is
+// finite and less than 2^20 radii [m]. `level` must not exceed BestSimdLevel().
 std::optional<Neighborhoods> FindNeighborhoodsByCells(const Points& points,
                                                       double radius,
                                                       int num_threads,

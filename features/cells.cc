@@ -32,8 +32,8 @@ std::optional<Cells> Cells::Make(const Points& points, double radius) {
   if (!(extent < kMaxNumCells * result.width_ && std::isfinite(extent))) {
     return std::nullopt;
   }
-  // Cells are numbered from 1, so that there is a cell below the first and one
-  // above the last.
+  // Cells are numbered from 1, so that one empty cell lies below the first cell
+  // and one above the last.
   result.num_cells_ = (extents / result.width_).array().floor() + 3.0;
   int bits[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -83,8 +83,8 @@ void Cells::Walk::FindNear(Key key, std::vector<std::int32_t>* near) {
   near->clear();
   const Key x_step = Key{1} << cells_.x_shift_;
   const Key y_step = Key{1} << cells_.y_shift_;
-  // If `key` is at the start of an axis, this is a cell at the end of another
-  // row. Cells at an end are always empty.
+  // If `key` is at the start of an axis, `corner` is a cell at the end of
+  // another row. Cells at an end are always empty.
   const Key corner = key - x_step - y_step - 1;
   for (std::size_t column = 0; column < at_.size(); ++column) {
     const Key first = corner + column / 3 * x_step + column % 3 * y_step;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Sorts points into cubic cells as wide as a radius. Then
+// Sorts points into cubic cells whose edge is the radius. Then
 //
-//   |p - q| <= radius  =>  |cell(p) - cell(q)| <= 1 on each axis:           (1)
+//   |p - q| <= radius  =>  |cell(p) - cell(q)| <= 1 on each axis,           (1)
 //
-// all points within the radius of a place are in the 27 cells around it.
+// so all points within the radius of a place are in the 27 cells around it.
 
 #ifndef QUATRO_FEATURES_CELLS_H_
 #define QUATRO_FEATURES_CELLS_H_
@@ -32,8 +32,8 @@ class Cells {
     std::size_t begin, end;
   };
 
-  // Returns nullopt if the cloud is wider than 2^20 radii or its width
-  // overflows.
+  // The points must be finite. Returns nullopt unless the width of the cloud is
+  // finite and less than 2^20 radii [m].
   static std::optional<Cells> Make(const Points& points, double radius);
 
   // The occupied cells in ascending order of keys.
@@ -45,15 +45,15 @@ class Cells {
   // All keys are below 2^num_key_bits().
   int num_key_bits() const { return num_key_bits_; }
 
-  // The key of the cell around `place`. Returns nullopt outside the grid, where
-  // no cell of (1) holds a point, and for a place that is not finite.
+  // The key of the cell that contains `place` [m]. Returns nullopt for a place
+  // outside the grid, where (1) finds no point, and for one that is not finite.
   std::optional<Key> KeyOf(const Eigen::Vector3d& place) const;
 
-  // Finds the points around one key after another. Fastest if the keys ascend
-  // in small steps.
+  // Finds the points around one key after another. It is fastest if the keys
+  // ascend in small steps.
   class Walk {
    public:
-    // `cells` must outlive this.
+    // `cells` must outlive the walk.
     explicit Walk(const Cells& cells) : cells_(cells) {}
 
     // Writes the indices of the points in the 27 cells around `key` to *near,
@@ -62,7 +62,8 @@ class Cells {
 
    private:
     const Cells& cells_;
-    std::array<std::size_t, 9> at_{};  // Per column of three cells.
+    // For each column of three cells, where it begins in cells().
+    std::array<std::size_t, 9> at_{};
   };
 
  private:

@@ -64,7 +64,7 @@ void SetBox(std::size_t at,
   }
 }
 
-// Boxes at infinity, which are near to nothing.
+// Boxes at infinity, which no search visits.
 std::vector<Boxes> EmptyBoxes(std::size_t num) {
   Boxes empty;
   for (int axis = 0; axis < kNumAxes; ++axis) {
@@ -74,7 +74,7 @@ std::vector<Boxes> EmptyBoxes(std::size_t num) {
   return std::vector<Boxes>((num + kLanes - 1) / kLanes, empty);
 }
 
-// One search, with registers of kBytes.
+// One search with registers of kBytes.
 template <int kBytes>
 class Search {
  public:
@@ -154,7 +154,7 @@ class Search {
     return static_cast<std::size_t>(std::countr_zero(bits));
   }
 
-  // Numbers >= 0 have the same order as their bits.
+  // Nonnegative numbers have the same order as their bits.
   QUATRO_SIMD_INLINE static float LeastOf(const Float (&x)[kNumPieces]) {
     Int least = reinterpret_cast<Int>(x[0]);
     for (int piece = 1; piece < kNumPieces; ++piece) {
@@ -174,7 +174,7 @@ class Search {
                       std::numeric_limits<float>::max());
   }
 
-  // Squared distances from the query to the boxes, along the axes.
+  // Squared distances from the query to the boxes.
   QUATRO_SIMD_INLINE void ToBoxes(const Boxes& boxes,
                                   Float (&sum)[kNumPieces]) const {
     const Float zero = {};
@@ -215,7 +215,7 @@ class Search {
                                    std::size_t box) {
     Float sum[kNumPieces];
     ToBoxes(parts.tile_boxes[box], sum);
-    // A local copy, which stays in registers.
+    // This local copy stays in registers.
     Float minus_twice[kNumAxes];
     for (int axis = 0; axis < kNumAxes; ++axis) {
       minus_twice[axis] = Float{} - 2.0f * coordinates_[axis];
@@ -248,7 +248,8 @@ class Search {
         sum += difference * difference;
       }
       const Int index = Piece<kBytes>(tile.index, piece);
-      // One comparison per choice: GCC would compute others lane by lane.
+      // One comparison per choice, because GCC would compute more of them lane
+      // by lane.
       const Int lower = index < best_index_[piece] ? index : best_index_[piece];
       const Int of_equals = sum == best_[piece] ? lower : best_index_[piece];
       best_index_[piece] = sum < best_[piece] ? index : of_equals;
@@ -264,7 +265,7 @@ class Search {
   bool is_done_;  // The search has ended.
   std::size_t nearest_box_;
 
-  Float best_[kNumPieces];  // Per lane.
+  Float best_[kNumPieces];  // Squared distance per lane.
   Int best_index_[kNumPieces];
   float least_;  // The smallest of best_.
   float limit_;  // The square of the right side of (3).
@@ -315,7 +316,7 @@ QUATRO_SIMD_AVX2 void FindByAvx2(const DescriptorIndex::Parts& parts,
 
 DescriptorAxes FindAxes(const Fpfh& a, const Fpfh& b) {
   using Matrix = Eigen::Matrix<double, kFpfhSize, kFpfhSize>;
-  constexpr Eigen::Index kNumSamples = 1000;  // Per side.
+  constexpr Eigen::Index kNumSamples = 1000;  // For each side.
   DescriptorAxes axes;
   Matrix products = Matrix::Zero();
   Eigen::Matrix<double, kFpfhSize, 1> sum =
@@ -335,8 +336,8 @@ DescriptorAxes FindAxes(const Fpfh& a, const Fpfh& b) {
       ++num;
     }
   }
-  // Larger squares could overflow. Then nothing is skipped, which is still
-  // exact.
+  // Larger squares could overflow. Without directions nothing is skipped, which
+  // is still exact.
   if (num == 0 || !(largest < 1e30f)) return axes;
   products.selfadjointView<Eigen::Lower>().rankUpdate(sum, -1.0 / num);
   axes.directions = Eigen::SelfAdjointEigenSolver<Matrix>(products)

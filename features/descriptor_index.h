@@ -4,30 +4,31 @@
 //
 //   |x - y|^2 = ((x_1 - y_1)^2 + (x_2 - y_2)^2) + ...  in single precision, (1)
 //
-// summed in this order. If distances are equal, the lower index is the nearer.
+// summed in this order. If two distances are equal, the lower index counts as
+// nearer.
 //
 // Descriptors of surfaces fill little of their space. Let V project onto the
-// kNumAxes directions of largest variance. Projected distances are no longer,
-// and usually little shorter,
+// kNumAxes directions of largest variance. A projected distance never exceeds
+// the distance, and is usually little shorter,
 //
 //   |V x - V y| <= |x - y|.                                                (2)
 //
-// The index halves the descriptors by V x down to tiles of 16. Each tile has a
-// bounding box, and each group of 16 tiles a larger one. A search visits boxes,
-// then compares tiles by (2), then computes (1) for the tiles that remain. It
-// skips everything farther away than the best distance so far by more than
-// rounding,
+// The index sorts the descriptors by V x into tiles of 16, by recursive
+// halving. Each tile has a bounding box, and each group of 16 tiles has a
+// larger one. A search visits the boxes, then compares tiles by (2), and
+// computes (1) for the tiles that remain. It skips everything whose projected
+// distance exceeds the best distance so far by more than rounding,
 //
 //   |V x - V y| > (1 + 1e-5) best + 4e-5 max |x|.                          (3)
 //
-// The 33 products in single precision, for x and y along 16 axes, are off by
-// less than 1.6e-5 max |x| together, and the sum (1) by less than 2.1e-6 of
-// itself. Tiles are compared by
+// The products V x and V y in single precision, 33 terms on each of 16 axes,
+// are off by less than 1.6e-5 max |x| together, and the sum (1) by less than
+// 2.1e-6 of itself. Tiles are compared by
 //
 //   |V x|^2 + |V y|^2 - 2 V x . V y,                                       (4)
 //
-// which takes half the work. Its sums and the limit are off by less than a
-// hundred roundings of max |x|^2, that is 6e-6 max |x|^2.
+// which takes half the work. The sums and the limit are off by less than a
+// hundred roundings of max |x|^2, which is 6e-6 max |x|^2.
 
 #ifndef QUATRO_FEATURES_DESCRIPTOR_INDEX_H_
 #define QUATRO_FEATURES_DESCRIPTOR_INDEX_H_
@@ -49,21 +50,23 @@ namespace quatro {
 struct DescriptorAxes {
   static constexpr int kNumAxes = 16;
 
-  // V: orthonormal rows. Zero skips nothing, which costs time but no accuracy.
+  // V: orthonormal rows. If V is zero, nothing is skipped, which costs time but
+  // no accuracy.
   Eigen::Matrix<float, kNumAxes, kFpfhSize> directions =
       Eigen::Matrix<float, kNumAxes, kFpfhSize>::Zero();
   float margin = 0.0f;          // The last term of (3).
   float squared_margin = 0.0f;  // The rounding of (4).
 };
 
-// The directions of largest variance in a sample of both sets. The margins are
+// The directions of largest variance in a sample of both sets. V is zero if
+// there are no descriptors or a squared length is 1e30 or more. The margins are
 // valid only for the descriptors of `a` and `b`.
 DescriptorAxes FindAxes(const Fpfh& a, const Fpfh& b);
 
 // A descriptor and its distance to a query.
 struct NearestDescriptor {
   float squared_distance = std::numeric_limits<float>::infinity();
-  std::int32_t index = std::numeric_limits<std::int32_t>::max();  // None.
+  std::int32_t index = std::numeric_limits<std::int32_t>::max();  // No match.
 };
 
 // A query and the nearest descriptor found so far.
@@ -79,8 +82,8 @@ class DescriptorIndex {
   // Ignores descriptors that are all zero or not finite.
   DescriptorIndex(const Fpfh& descriptors, const DescriptorAxes& axes);
 
-  // The indices of the descriptors that were not ignored; neighbors are
-  // adjacent.
+  // The indices of the descriptors that were not ignored. Descriptors that are
+  // near each other are adjacent.
   const std::vector<std::int32_t>& order() const { return order_; }
 
   // V x of all descriptors, one per column.
@@ -89,8 +92,8 @@ class DescriptorIndex {
     return coordinates_;
   }
 
-  // Replaces the `best` of each query by the nearest descriptor if that is
-  // nearer. If `any` is set, any nearer descriptor will do. Fastest if
+  // Replaces the `best` of each query by the nearest descriptor if it is
+  // nearer. If `any` is set, any nearer descriptor will do. It is fastest if
   // consecutive queries are near each other. `level` must not exceed
   // BestSimdLevel().
   void FindNearer(bool any,
@@ -109,7 +112,7 @@ class DescriptorIndex {
     FloatRow squared_length;
   };
 
-  // Sixteen bounding boxes, by their corners along the axes.
+  // Sixteen bounding boxes, given by their corners along the axes.
   struct Boxes {
     FloatRow low[DescriptorAxes::kNumAxes];
     FloatRow high[DescriptorAxes::kNumAxes];

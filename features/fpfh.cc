@@ -21,11 +21,11 @@
 namespace quatro {
 namespace {
 
-// The maximum number of parts of the cloud whose pairs are counted in parallel.
+// The largest number of parts of the cloud whose pairs are counted in parallel.
 // Each part has its own array.
 constexpr Eigen::Index kMaxParts = 8;
 
-// One part of a descriptor per row.
+// A row holds one part of a descriptor.
 constexpr int kRowLanes = 16;
 using Row __attribute__((vector_size(4 * kRowLanes), may_alias)) = float;
 
@@ -158,8 +158,8 @@ void FinishFpfh(const Histogram& spfh, std::int32_t num_pairs, Histogram* sum) {
   NormalizeParts(100.0f, sum);
 }
 
-// The points with their normals. Coordinates relative to a point of the cloud
-// keep their digits in single precision.
+// The points with their normals. Coordinates are relative to a point of the
+// cloud, so that they keep their digits in single precision.
 std::vector<OrientedPoint> Orient(const PointsRef& points,
                                   const PointsRef& normals) {
   const Eigen::Index n = points.cols();

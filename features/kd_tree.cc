@@ -19,7 +19,7 @@
 namespace quatro {
 namespace {
 
-// The interface that nanoflann expects of a set of points.
+// The interface that nanoflann expects from a set of points.
 struct Adaptor {
   const Points& points;
 
@@ -45,16 +45,16 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<
 constexpr std::size_t kLeafSize = 16;
 
 // nanoflann keeps distances < limit, and prunes by sums that round differently
-// from the distances. This limit is large enough for a closed ball.
+// from the distances. This limit is large enough to include the boundary of the
+// ball.
 double LimitOf(double squared_radius) {
   constexpr double kPruningError = 1e-12;
   return std::nextafter(squared_radius * (1.0 + kPruningError),
                         std::numeric_limits<double>::infinity());
 }
 
-// Result sets of our own: those of nanoflann changed names and types between
-// 1.4 and 1.12. From 1.6 on nanoflann calls sort(), from 1.7 on it asks for the
-// types.
+// Our own result sets, because nanoflann's changed names and types between 1.4
+// and 1.12. nanoflann calls sort() since 1.6 and needs the types since 1.7.
 struct ResultSet {
   using DistanceType = double;
   using IndexType = std::uint32_t;
@@ -91,7 +91,7 @@ struct AllBelow : ResultSet {
   std::size_t size() const { return found.size(); }
 };
 
-// find(i) returns the neighbours of point i.
+// find(i) returns the neighbors of point i.
 template <typename Find>
 Neighborhoods FindRows(Eigen::Index num_points,
                        int num_threads,
@@ -120,7 +120,7 @@ class KdTree::Index {
  public:
   explicit Index(const Points& points) : adaptor_{points} {}
 
-  // Built on first use, which may never happen.
+  // Builds the tree on first use, which may never happen.
   const Tree& tree() {
     std::call_once(once_, [this] {
       tree_ = std::make_unique<Tree>(

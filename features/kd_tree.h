@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Nearest points in space. This is the only file that uses nanoflann.
+// Searches among points p_i in space, for a query q:
+//
+//   { i : |p_i - q| <= radius }   and   argmin_i |p_i - q|.
+//
+// This is the only file that uses nanoflann.
 
 #ifndef QUATRO_FEATURES_KD_TREE_H_
 #define QUATRO_FEATURES_KD_TREE_H_
@@ -26,7 +30,7 @@ struct Neighbor {
 // members may be called from several threads. The first query builds the tree.
 class KdTree {
  public:
-  // Takes the points over. The tree is movable but not copyable.
+  // Takes ownership of the points. The tree is movable but not copyable.
   explicit KdTree(Points points);
   ~KdTree();
   KdTree(KdTree&&) noexcept;
@@ -40,11 +44,12 @@ class KdTree {
   std::vector<Neighbor> WithinRadius(const Eigen::Vector3d& query,
                                      double radius) const;
 
-  // The `k` nearest points, nearest first. Fewer if the tree has fewer points.
+  // The `k` nearest points, nearest first. There are fewer if the tree has
+  // fewer points.
   std::vector<Neighbor> Nearest(const Eigen::Vector3d& query, int k) const;
 
-  // The nearest point within `radius` [m], boundary included. Faster than
-  // Nearest() if there is none.
+  // The nearest point within `radius` [m], boundary included. It is faster than
+  // Nearest() if no point is that near.
   std::optional<Neighbor> NearestWithin(const Eigen::Vector3d& query,
                                         double radius) const;
 
@@ -60,15 +65,15 @@ Neighborhoods FindNeighborhoods(const KdTree& tree,
                                 double radius,
                                 int num_threads);
 
-// Returns the same as FindNeighborhoods(), bit for bit, but uses the tree only.
-// It is the reference for the faster search by cells, and the fallback for
-// clouds too wide for cells.
+// Returns the result of FindNeighborhoods(), bit for bit, but uses only the
+// tree. It is the reference for the faster search by cells, and the fallback
+// for clouds that are too wide for cells.
 Neighborhoods FindNeighborhoodsByTree(const KdTree& tree,
                                       double radius,
                                       int num_threads);
 
-// For each point of the tree, its `k` nearest points, nearest first. Fewer if
-// the tree has fewer points.
+// For each point of the tree, its `k` nearest points, nearest first. There are
+// fewer if the tree has fewer points.
 Neighborhoods FindNearestNeighborhoods(const KdTree& tree,
                                        int k,
                                        int num_threads);

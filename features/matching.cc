@@ -16,9 +16,9 @@ namespace {
 
 constexpr Eigen::Index kPiece = 64;  // Queries per piece.
 
-// Replaces the entries in `nearest` of the given queries by nearer descriptors
-// in `others`; if `any` is set, any nearer one will do. Consecutive queries are
-// neighbors, so they find the same boxes in the cache.
+// Replaces the entries of the given queries in `nearest` by nearer descriptors
+// in `others`. If `any` is set, any nearer one will do. Consecutive queries are
+// near each other, so they find the same boxes in the cache.
 void FindNearest(const Fpfh& descriptors,
                  const DescriptorIndex& index,
                  const std::vector<std::int32_t>& columns,
@@ -80,7 +80,7 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
               &target_of);
 
   // If several sources have the same nearest target, only the nearest of them
-  // can be the target's nearest. It is, unless some other source is nearer.
+  // can be the target's nearest. It is, unless another source is nearer.
   std::vector<NearestDescriptor> source_of(
       static_cast<std::size_t>(target.cols()));
   for (std::size_t i = 0; i < target_of.size(); ++i) {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 // Matches two clouds by their descriptors.
 //
-// (i, j) match iff j is the nearest to i among the target's descriptors and i
-// is the nearest to j among the source's. If distances are equal, the lower
-// index wins. All-zero descriptors have no match, nor have descriptors at a
-// distance that overflows single precision. Distances are (1) of
+// Descriptor i of the source and j of the target match iff j is the target's
+// nearest to i and i is the source's nearest to j. If distances are equal, the
+// lower index wins. Descriptors that are all zero, not finite, or at a distance
+// that overflows single precision have no match. Distances are (1) of
 // features/descriptor_index.h, bit for bit.
 
 #ifndef QUATRO_FEATURES_MATCHING_H_

@@ -6,7 +6,7 @@
 //
 // Places in the same cell (features/cells.h) share their candidates. This is
 // faster than a k-d tree if a ball of the radius holds few points, as in a
-// sampled cloud. A k-d tree is for radii that are not known in advance.
+// sampled cloud. Use a k-d tree if the radius is not known in advance.
 
 #ifndef QUATRO_FEATURES_NEAREST_WITHIN_H_
 #define QUATRO_FEATURES_NEAREST_WITHIN_H_
@@ -19,11 +19,13 @@
 
 namespace quatro {
 
+// The index of no point.
 constexpr std::int32_t kNoneWithin = -1;
 
-// For each column of `places`, the index of the nearest point of the tree
-// within `radius` [m]. If points are equally near, the lowest index wins.
-// kNoneWithin if no point is that near or the place is not finite.
+// For each column of `places` [m], the index of the nearest point of the tree
+// within `radius` [m], or kNoneWithin if no point is that near or the place is
+// not finite. If points are equally near, the lowest index wins, unless the
+// cloud is too wide for cells.
 std::vector<std::int32_t> FindNearestWithin(const KdTree& tree,
                                             const Points& places,
                                             double radius,

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The neighbors of each point of a cloud. They are millions of numbers, so each
-// is written once, in place, into memory of huge pages.
+// The neighbors of each point p_i of a cloud,
+//
+//   N_i = { j : |p_j - p_i| <= radius },   or the k points nearest to p_i.
+//
+// They are millions of numbers, so each is written once, in place, into memory
+// of huge pages.
 
 #ifndef QUATRO_FEATURES_NEIGHBORHOODS_H_
 #define QUATRO_FEATURES_NEIGHBORHOODS_H_
@@ -30,7 +34,7 @@ class Neighborhoods {
     std::size_t size() const { return index.size(); }
   };
 
-  // Empty: no rows.
+  // Has no rows.
   Neighborhoods() = default;
 
   // The number of rows, one per point.
@@ -47,7 +51,7 @@ class Neighborhoods {
  private:
   friend class NeighborhoodsBuilder;
 
-  // Never grows, so that rows keep their addresses.
+  // Its arrays never grow, so that rows keep their addresses.
   struct Block {
     explicit Block(std::size_t capacity)
         : index(capacity), squared_distance(capacity) {}
@@ -73,7 +77,7 @@ class NeighborhoodsBuilder {
   // Writes any number of rows. Each thread has a writer of its own.
   class Writer {
    public:
-    // `builder` must outlive this.
+    // `builder` must outlive the writer.
     explicit Writer(NeighborhoodsBuilder* builder) : builder_(builder) {}
     ~Writer();
     Writer(const Writer&) = delete;
@@ -86,7 +90,7 @@ class NeighborhoodsBuilder {
     };
     Room MakeRoom(std::size_t max_size);
 
-    // Stores the first `size` elements of the memory from MakeRoom() as row i.
+    // Stores the first `size` elements of the room from MakeRoom() as row i.
     void Add(Eigen::Index i, std::size_t size);
 
    private:
@@ -94,8 +98,7 @@ class NeighborhoodsBuilder {
     Neighborhoods::Block* block_ = nullptr;
   };
 
-  // The neighborhoods built. All writers must be destroyed before this is
-  // called.
+  // Returns the neighborhoods. All writers must be destroyed before the call.
   Neighborhoods Finish() &&;
 
  private:

@@ -15,11 +15,11 @@
 namespace quatro {
 namespace {
 
-// The ratio of the second to the largest eigenvalue below which points are on a
-// line.
+// The ratio of the second to the largest eigenvalue below which the points are
+// on a line.
 constexpr double kMinPlanarity = 1e-6;
 
-// The scatter of the points in `near` about their mean. Uses moments about
+// The scatter of the points in `near` about their mean. Computes moments about
 // point i, so that large coordinates cancel.
 Eigen::Matrix3d ScatterOf(const PointsRef& points,
                           Eigen::Index i,
@@ -53,7 +53,7 @@ Points EstimateNormals(const PointsRef& points,
   const auto limit = static_cast<float>(radius * radius);
   const auto estimate = [&](Eigen::Index i, std::vector<std::int32_t>* near) {
     const Neighborhoods::Row& row = neighborhoods.row(i);
-    // Without a branch, which would be unpredictable.
+    // Avoids a branch, which would be unpredictable.
     near->resize(std::max(near->size(), row.size()));
     std::size_t count = 0;
     for (std::size_t k = 0; k < row.size(); ++k) {

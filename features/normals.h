@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Surface normals: the direction of least variance of the points around each
-// point,
+// point p,
 //
 //   n = argmin_{|n| = 1}  sum_j (n . (p_j - mean))^2,   |p_j - p| <= radius,
 //
@@ -17,10 +17,10 @@
 
 namespace quatro {
 
-// One unit normal per point. Zero if fewer than three points are within
-// `radius` [m] or they are all on one line. `neighborhoods` are those of
-// `points` at a radius no smaller than `radius`. `viewpoint` is the sensor's
-// position in the cloud's frame [m].
+// One unit normal per point, 3xN. It is zero if fewer than three points are
+// within `radius` [m] or all of these are on one line. `neighborhoods` are
+// those of `points` at a radius no smaller than `radius`. `viewpoint` is the
+// sensor's position in the cloud's frame [m].
 Points EstimateNormals(const PointsRef& points,
                        const Neighborhoods& neighborhoods,
                        double radius,

@@ -14,7 +14,8 @@
 namespace quatro {
 namespace {
 
-// Cosines to the line that differ by less than this are equal up to rounding.
+// Cosines of the angle to the line that differ by less than this are equal up
+// to rounding.
 constexpr float kEqualCosines = 1e-5f;
 
 // The sine of the angle between line and normal below which v in (1) is
@@ -46,7 +47,8 @@ QUATRO_SIMD_INLINE std::int32_t AngleBin(float y, float x) {
                                             : middle + num_past;
 }
 
-// Computes like ComputePairFeature(), except for the angle.
+// The bins of ComputePairFeature() for all pairs, with the bin of the angle by
+// AngleBin().
 QUATRO_SIMD_CLONES void FindAll(const OrientedPoint& own,
                                 const float* __restrict x,
                                 const float* __restrict y,

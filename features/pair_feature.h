@@ -11,7 +11,7 @@
 // is the point with the greater n_s . d.
 //
 // PairBinner computes many pairs at once in single precision. It finds the bin
-// of the angle by comparing with the edges of the bins. On two real scans all
+// of the angle by comparing with the edges of the bins. On two real scans, all
 // its bins were those of ComputePairFeature().
 //
 // Source: Rusu, Blodow and Beetz, "Fast Point Feature Histograms (FPFH) for 3D
@@ -46,10 +46,9 @@ struct OrientedPoint {
   bool HasNormal() const { return x == x; }
 };
 
-// The bins of a pair packed into one number, four bits per part. A pair without
-// a feature has the same bin past the others in each part: kAlongNormal if the
-// line is along the normal, kNoPair if the points coincide or one has no
-// normal.
+// The bins of a pair packed into one number, four bits per part. If a pair has
+// no feature, all parts are kAlongNormal (the line between the points is along
+// the normal) or kNoPair (the points coincide, or one has no normal).
 struct PairBins {
   static constexpr std::int32_t kAlongNormal = 14;
   static constexpr std::int32_t kNoPair = 15;
@@ -64,7 +63,7 @@ struct PairBins {
 class PairBinner {
  public:
   // The bins of `own` paired with points[i] for each i of `index`, in that
-  // order. Valid until the next call.
+  // order. The span is valid until the next call.
   std::span<const PairBins> FindBins(const OrientedPoint& own,
                                      const std::vector<OrientedPoint>& points,
                                      std::span<const std::int32_t> index);

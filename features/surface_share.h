@@ -6,9 +6,9 @@
 //   N_i = { p_j : |p_j - p_i| <= r },   lambda_1 >= lambda_2 >= lambda_3 of the
 //                                       scatter of N_i.
 //
-// A scan with few beams is dense along its rings and empty between them. A
-// radius that does not reach from one ring to the next sees only lines, which
-// have no normal.
+// A scan with few beams is dense along its rings and empty between them. If the
+// radius does not reach from one ring to the next, the neighbors are on lines,
+// which have no normal.
 
 #ifndef QUATRO_FEATURES_SURFACE_SHARE_H_
 #define QUATRO_FEATURES_SURFACE_SHARE_H_
@@ -17,8 +17,8 @@
 
 namespace quatro {
 
-// The share, in [0, 1], of at most 2000 points spread evenly over the indices
-// of `tree`. `radius` [m]. Zero if there are no points.
+// The share, in [0, 1], among at most 2000 points spread evenly over the
+// indices of `tree`. `radius` is in meters. Zero if there are no points.
 double SurfaceShare(const KdTree& tree, double radius);
 
 }  // namespace quatro

@@ -36,7 +36,7 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
   const std::size_t n = matches.size();
   if (n < 3) return matches;
   const double s2 = options.scale * options.scale;
-  // Both ends of a match next to each other, since access is random.
+  // The two points of a match are adjacent in memory, because access is random.
   struct Ends {
     Eigen::Vector3d source, target;
   };
@@ -49,7 +49,7 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
     // Equation (1), squared.
     const double p2 = (ends[a].source - ends[b].source).squaredNorm();
     const double q2 = (ends[a].target - ends[b].target).squaredNorm();
-    // Without a branch, which would be unpredictable.
+    // Avoids a branch, which would be unpredictable.
     return static_cast<bool>((s2 * q2 < p2) & (s2 * p2 < q2));
   };
 
@@ -67,7 +67,8 @@ std::vector<Match> FilterByTupleTest(const std::vector<Match>& matches,
       const std::size_t a = random.Below(n);
       const std::size_t b = random.Below(n);
       const std::size_t c = random.Below(n);
-      // The triple could only add to the count.
+      // All three have passed already, so the triple could only add to the
+      // count.
       if (!is_counted && has_passed(a) && has_passed(b) && has_passed(c)) {
         continue;
       }

@@ -24,8 +24,9 @@ struct TupleTestOptions {
   double scale = 0.95;  // s in (1), in (0, 1).
   int num_triples_per_match = 100;
 
-  // Stop once this many triples have passed; 0: never. The original code of the
-  // paper stops at 1000, and returns a match once per triple that passed.
+  // Stop once this many triples have passed; 0 means never. The original code
+  // of the paper stops at 1000, and returns a match once per triple that
+  // passed.
   std::int64_t max_num_triples = 0;
 
   std::uint64_t seed = 0;

@@ -43,7 +43,8 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
       (points.rowwise().minCoeff() / voxel_size).array().floor();
   const Eigen::Vector3d last_cell =
       (points.rowwise().maxCoeff() / voxel_size).array().floor();
-  // Each axis is checked, since a maximum may drop a NaN (from infinite cells).
+  // Each axis is checked, because a maximum may drop a NaN that comes from
+  // infinite cells.
   if (!((last_cell - first_cell).array() < kMaxCells).all()) {
     problem << "the cloud is "
             << (last_cell - first_cell).maxCoeff() * voxel_size
@@ -78,7 +79,7 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
   Points samples(3, num_cells);
   Eigen::Index num_samples = 0;
   for (auto begin = keyed.begin(); begin != keyed.end();) {
-    // Offsets from the cell's corner, in cells, are in [0, 1).
+    // Offsets from the cell's corner are in [0, 1), in units of cells.
     const Eigen::Vector3d corner =
         (points.col(begin->index) / voxel_size).array().floor();
     Fixed3 sum = Fixed3::Zero();

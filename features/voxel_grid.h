@@ -7,7 +7,7 @@
 //
 // Cells are anchored at the origin. Samples are ordered by the indices of their
 // cells (x, then y, then z). Means are summed in fixed point, which is
-// associative: the result depends, bit for bit, only on the set of points.
+// associative. So the result depends, bit for bit, only on the set of points.
 
 #ifndef QUATRO_FEATURES_VOXEL_GRID_H_
 #define QUATRO_FEATURES_VOXEL_GRID_H_
@@ -19,9 +19,9 @@
 
 namespace quatro {
 
-// `voxel_size` [m]. Returns nullopt and sets *error if voxel_size is not
-// positive and finite, a point is not finite, or the cloud is wider than 2^21
-// cells.
+// `voxel_size` is in meters. Returns nullopt and sets *error if it is not
+// positive and finite, if a point is not finite, or if the cloud is wider than
+// 2^21 cells.
 std::optional<Points> SampleVoxels(const PointsRef& points,
                                    double voxel_size,
                                    std::string* error);

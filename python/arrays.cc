@@ -3,6 +3,7 @@
 
 #include "python/arrays.h"
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -15,13 +16,35 @@ namespace {
 namespace py = pybind11;
 
 constexpr py::ssize_t kNumber = sizeof(double);
-constexpr double kRotationTolerance = 1e-6;
+constexpr double kRotationTolerance = 1e-3;  // As that of --guess.
 
 std::string Shape(const py::array& array) {
   return py::str(array.attr("shape")).cast<std::string>();
 }
 
+// An array loses its mask when it is read.
+void RefuseMasked(const py::object& given, const std::string& name) {
+  if (!py::hasattr(given, "mask")) return;
+  const py::object is_masked =
+      py::module_::import("numpy").attr("ma").attr("is_masked");
+  if (!is_masked(given).cast<bool>()) return;
+  throw py::value_error(name + " has masked entries; pass " + name + "[~" +
+                        name + ".mask.any(axis=1)]");
+}
+
+// The nearest rotation, or nullopt if the matrix is not nearly one.
+std::optional<Eigen::Matrix3d> NearestRotationTo(
+    const Eigen::Matrix3d& matrix) {
+  if (!matrix.isUnitary(kRotationTolerance) || matrix.determinant() < 0.0) {
+    return std::nullopt;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
 py::array RealNumbers(const py::object& given, const char* name) {
+  RefuseMasked(given, name);
   auto array = py::array::ensure(given);
   if (!array) {
     PyErr_Clear();
@@ -34,6 +57,19 @@ py::array RealNumbers(const py::object& given, const char* name) {
                           ", must be real numbers");
   }
   return array;
+}
+
+bool IsPath(const py::object& given) {
+  return py::isinstance<py::str>(given) || py::isinstance<py::bytes>(given) ||
+         py::hasattr(given, "__fspath__");
+}
+
+// What to do about points of another shape; empty if unknown.
+std::string ShapeHint(const py::array& array, const std::string& name) {
+  if (array.ndim() != 2 || array.shape(1) < 4) return "";
+  if (array.shape(0) == 3) return "; pass " + name + ".T";
+  return "; it has " + std::to_string(array.shape(1)) + " columns, pass " +
+         name + "[:, :3]";
 }
 
 bool CanBeMapped(const py::array& array) {
@@ -51,6 +87,12 @@ py::array ReadOnly(py::array array) {
 }  // namespace
 
 PointsArgument::PointsArgument(const py::object& given, const char* name) {
+  if (IsPath(given)) {
+    throw py::type_error(std::string(name) + " = " +
+                         py::repr(given).cast<std::string>() +
+                         ", must be an (N, 3) array; quatro.read_cloud() reads "
+                         "files");
+  }
   py::object points = given;
   if (!py::isinstance<py::array>(given) && py::hasattr(given, "points")) {
     points = given.attr("points");
@@ -58,7 +100,7 @@ PointsArgument::PointsArgument(const py::object& given, const char* name) {
   const py::array array = RealNumbers(points, name);
   if (array.ndim() != 2 || array.shape(1) != 3) {
     throw py::value_error(std::string(name) + " has shape " + Shape(array) +
-                          ", must be (N, 3)");
+                          ", must be (N, 3)" + ShapeHint(array, name));
   }
   if (CanBeMapped(array)) {
     array_ = py::reinterpret_borrow<py::array_t<double>>(array);
@@ -92,29 +134,33 @@ PointCloud MakeCloud(const PointsArgument& points) {
 
 Rigid3 PoseArgument(const py::object& given, const char* name) {
   const py::array array = RealNumbers(given, name);
-  if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4) {
+  const bool is_pose = array.ndim() == 2 && array.shape(1) == 4 &&
+                       (array.shape(0) == 3 || array.shape(0) == 4);
+  if (!is_pose) {
     throw py::value_error(std::string(name) + " has shape " + Shape(array) +
-                          ", must be (4, 4)");
+                          ", must be (4, 4) or (3, 4)");
   }
   const auto numbers =
       py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(
           array);
   if (!numbers) throw py::error_already_set();
-  Eigen::Matrix4d matrix;
-  for (int row = 0; row < 4; ++row) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  for (py::ssize_t row = 0; row < numbers.shape(0); ++row) {
     for (int column = 0; column < 4; ++column) {
       matrix(row, column) = numbers.at(row, column);
     }
   }
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  const bool is_rotation =
-      (rotation.transpose() * rotation).isIdentity(kRotationTolerance) &&
-      rotation.determinant() > 0.0;
-  if (!matrix.allFinite() || !is_rotation ||
-      matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
-    throw py::value_error(std::string(name) + " is not a rigid motion");
+  std::optional<Eigen::Matrix3d> rotation;
+  if (matrix.allFinite()) {
+    rotation = NearestRotationTo(matrix.topLeftCorner<3, 3>());
   }
-  return {rotation, matrix.topRightCorner<3, 1>()};
+  if (!rotation || matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
+    throw py::value_error(std::string(name) +
+                          " is not a rigid motion: its first three columns "
+                          "must be a rotation to 1e-3, and a fourth row 0 0 0 "
+                          "1");
+  }
+  return {*rotation, matrix.topRightCorner<3, 1>()};
 }
 
 py::array ViewPoints(const Points& points, py::handle owner) {

@@ -23,7 +23,8 @@ namespace quatro {
 // A given (N, 3) array or an Open3D cloud. It is used without a copy if it is
 // float64 and the three numbers of a point are contiguous, with any distance
 // between rows; otherwise it is copied. Throws ValueError, which names the
-// argument, for any other shape and for values that are not real numbers.
+// argument, for any other shape, for values that are not real numbers and for
+// masked entries, and TypeError for the name of a file.
 class PointsArgument {
  public:
   PointsArgument(const pybind11::object& given, const char* name);
@@ -39,8 +40,8 @@ class PointsArgument {
 // origin are dropped and counted.
 PointCloud MakeCloud(const PointsArgument& points);
 
-// A pose given as a (4, 4) array, its rotation accurate to 1e-6. Throws
-// ValueError.
+// A pose given as a (4, 4) array, or as its first three rows. Its rotation may
+// be rounded, to 1e-3; the nearest rotation is returned. Throws ValueError.
 Rigid3 PoseArgument(const pybind11::object& given, const char* name);
 
 // Read-only views of data that `owner` keeps alive.

@@ -15,6 +15,7 @@
 #include "python/arrays.h"
 #include "python/options.h"
 #include "python/summaries.h"
+#include "robust/registration/any_vertical.h"
 #include "robust/registration/methods.h"
 #include "robust/registration/presets.h"
 #include "robust/registration/registration.h"
@@ -63,13 +64,22 @@ void CheckBounds(const py::dict& given,
   }
 }
 
+// pybind11's own message for another type has one line for each argument.
+std::string NameArgument(const py::object& given, const char* argument) {
+  if (py::isinstance<py::str>(given)) return given.cast<std::string>();
+  throw py::type_error(std::string(argument) + " = " +
+                       py::repr(given).cast<std::string>() + ", must be a str");
+}
+
 const Method& MethodOf(const std::string& name) {
   std::string names;
   for (const Method& method : Methods()) {
     if (name == method.name) return method;
     names += (names.empty() ? "" : ", ") + std::string(method.name);
   }
-  throw py::value_error("method = \"" + name + "\", must be one of " + names);
+  throw py::value_error(
+      "method = \"" + name + "\", must be one of " + names +
+      (MakePreset(name) ? "; it is a preset: preset=..." : ""));
 }
 
 // Sets the options that are given, and checks all.
@@ -88,6 +98,13 @@ void Read(const Method& method,
   if (!CanUseIns(method, options->ins, &error) || !options->IsValid(&error)) {
     throw py::value_error(error);
   }
+  if (given.contains("gravity") && options->ins.gravity == Gravity::kScans &&
+      !(has_clouds && method.searches && MayLevelByScans(*options))) {
+    throw py::value_error(
+        "gravity = \"scans\" has no effect here: it needs two clouds, a method "
+        "that searches other poses, such as quatro, max_rung > 0, and neither "
+        "an INS nor bounds on the pose");
+  }
 }
 
 RegistrationOptions FindPreset(const std::string& name,
@@ -100,15 +117,21 @@ RegistrationOptions FindPreset(const std::string& name,
   std::string error = "preset = \"" + name + "\", must be one of ";
   for (const std::string& known : PresetNames()) error += known + ", ";
   if (further_name == nullptr) error.resize(error.size() - 2);
-  throw py::value_error(error + (further_name ? further_name : ""));
+  if (further_name != nullptr) error += further_name;
+  std::string ignored;
+  if (name != "auto" && FindMethod(name, &ignored)) {
+    error += "; it is a method: method=...";
+  }
+  throw py::value_error(error);
 }
 
 Registration RegisterClouds(const py::object& source,
                             const py::object& target,
-                            const std::string& preset,
-                            const std::string& method_name,
+                            const py::object& preset_name,
+                            const py::object& method_name,
                             const py::kwargs& given) {
-  const Method& method = MethodOf(method_name);
+  const Method& method = MethodOf(NameArgument(method_name, "method"));
+  const std::string preset = NameArgument(preset_name, "preset");
   const PointsArgument source_points(source, "source");
   const PointsArgument target_points(target, "target");
   PointCloud source_cloud;
@@ -152,10 +175,11 @@ Registration RegisterClouds(const py::object& source,
 
 Solution SolveMatches(const py::object& source_points,
                       const py::object& target_points,
-                      const std::string& method_name,
-                      const std::string& preset,
+                      const py::object& method_name,
+                      const py::object& preset_name,
                       const py::kwargs& given) {
-  const Method& method = MethodOf(method_name);
+  const Method& method = MethodOf(NameArgument(method_name, "method"));
+  const std::string preset = NameArgument(preset_name, "preset");
   const PointsArgument source_argument(source_points, "source_points");
   const PointsArgument target_argument(target_points, "target_points");
   const auto source = source_argument.View();
@@ -222,9 +246,10 @@ struct GivenAlignment {
 
 Alignment AlignClouds(const py::object& source,
                       const py::object& target,
-                      const std::string& method,
+                      const py::object& method_name,
                       const py::object& initial,
                       const py::kwargs& options) {
+  const std::string method = NameArgument(method_name, "method");
   if (method != "icp" && method != "gicp" && method != "vgicp") {
     throw py::value_error("method = \"" + method +
                           "\", must be one of icp, gicp, vgicp");
@@ -343,7 +368,8 @@ Local alignment, from a pose that is nearly correct.
 source, target: (N, 3) arrays of points [m] or Open3D point clouds, all finite.
 method: icp (point to point), gicp (plane to plane) or vgicp (plane to planes of
   voxels).
-initial_target_from_source: (4, 4), or None for no motion.
+initial_target_from_source: (4, 4) or (3, 4), its rotation to 1e-3, or None for
+  no motion.
 
 Returns an Alignment. Raises ValueError and TypeError as register() does. Other
 Python threads run during the call.

@@ -86,7 +86,8 @@ class Setter {
     const auto array = py::array::ensure(value_);
     if (!array) PyErr_Clear();
     if (!array || array.dtype().kind() == 'O') Refuse("a (4, 4) array");
-    *field = PoseArgument(array, name_.c_str());
+    *field =
+        PoseArgument(py::reinterpret_borrow<py::object>(value_), name_.c_str());
   }
 
   void operator()(const Choice& choice) const {
@@ -94,7 +95,10 @@ class Setter {
     for (const std::string& name : choice.names) {
       names += (names.empty() ? "" : ", ") + name;
     }
-    if (!py::isinstance<py::str>(value_)) Refuse("one of " + names);
+    if (!py::isinstance<py::str>(value_)) {
+      Refuse("one of " + names +
+             (name_ == "gravity" ? "; a direction is up=(x, y, z)" : ""));
+    }
     const auto given = value_.cast<std::string>();
     const auto found =
         std::find(choice.names.begin(), choice.names.end(), given);
@@ -114,6 +118,24 @@ class Setter {
   const py::handle& value_;
 };
 
+// The option that was probably meant, or else the names of all.
+std::string HintAtOptions(const std::string& name,
+                          const OptionList& options,
+                          const std::string& function) {
+  constexpr double kSimilar = 0.75;
+  py::list names;
+  for (const Option& option : options) names.append(option.name);
+  const py::list nearest = py::module_::import("difflib").attr(
+      "get_close_matches")(name, names, 1, kSimilar);
+  if (!nearest.empty()) {
+    return ", did you mean " + nearest[0].cast<std::string>() +
+           "? help(quatro." + function.substr(0, function.find('(')) +
+           ") lists all";
+  }
+  return ", must be one of " +
+         py::str(", ").attr("join")(names).cast<std::string>();
+}
+
 }  // namespace
 
 void Apply(const py::dict& given,
@@ -129,12 +151,8 @@ void Apply(const py::dict& given,
       std::visit(Setter(name, value), option->field);
       continue;
     }
-    std::string known;
-    for (const Option& other : options) {
-      known += (known.empty() ? "" : ", ") + other.name;
-    }
     throw py::type_error(function + " has no option " + name +
-                         ", must be one of " + known);
+                         HintAtOptions(name, options, function));
   }
 }
 

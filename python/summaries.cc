@@ -136,8 +136,15 @@ void BindStatus(py::class_<Summary>* type) {
     return VerdictOf(s).reason;
   });
   add("probability",
-      "float: that the pose is within 2 m and 10 deg; 0 if there is no pose.",
+      "float: that the pose is within the tolerance; 0 if there is no pose.",
       [](const Summary& s) { return VerdictOf(s).probability; });
+  add("tolerance",
+      "tuple: a pose is correct within these errors, meters and degrees.",
+      [](const Summary& s) {
+        const SuccessTolerance& tolerance = VerdictOf(s).tolerance;
+        return py::make_tuple(tolerance.translation,
+                              tolerance.rotation * 180.0 / M_PI);
+      });
   add("features", "dict: the inputs of the probability.", [](const Summary& s) {
     py::dict dict;
     for (const Feature& feature : VerdictOf(s).features) {

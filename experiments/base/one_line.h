@@ -7,16 +7,14 @@
 #define QUATRO_EXPERIMENTS_BASE_ONE_LINE_H_
 
 #include <string>
+#include <string_view>
 
 namespace quatro {
 
-// Replaces line breaks and all other control characters by "?".
-inline std::string OneLine(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return text;
-}
+// Replaces line breaks, all other control characters and bytes that are not
+// UTF-8 by "?". Words of more than 200 characters and lines of more than 2000
+// bytes are shortened with "...".
+std::string OneLine(std::string_view text);
 
 }  // namespace quatro
 

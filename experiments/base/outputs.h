@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Reads a program's inputs and writes its outputs. The path "-" means standard
-// input or standard output; "./-" is a file.
+// input or standard output; "./-" is a file. /dev/stdout, /dev/stderr and
+// /dev/fd/N are open files and are written to, not replaced.
 
 #ifndef QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
 #define QUATRO_EXPERIMENTS_BASE_OUTPUTS_H_
@@ -27,12 +28,13 @@ struct OutputFlag {
 };
 
 // Whether a file can be written to this path, as far as this is known
-// beforehand.
-bool CanWrite(const std::string& path, std::string* error);
+// beforehand. A character device, such as /dev/null, can. Symbolic links are
+// followed, and the file that they name need not exist.
+bool CanWrite(const std::string& name, std::string* error);
 
 // Whether all outputs of a program can be written; empty paths are ignored. An
-// output must not be an input or another output, and at most one may go to
-// standard output.
+// output must not be an input or another output unless it is a device, and at
+// most one may go to standard output.
 bool CanWriteAll(const std::vector<OutputFlag>& outputs,
                  const std::vector<std::string>& inputs,
                  std::string* error);
@@ -64,9 +66,11 @@ std::vector<std::filesystem::path> MakeFolders(
 // far could not be written.
 bool FlushOutput(std::string* error);
 
-// Writes each file completely or not at all. If one of the files or standard
+// Writes each file completely or not at all, and keeps the permissions to read
+// and write a file that is replaced. If one of the files or standard
 // output cannot be written, returns false and restores all files. New files
-// remain only if a folder changes in the meantime.
+// remain only if a folder changes in the meantime. What a device has received
+// stays.
 bool WriteOutputs(const std::vector<OutputFile>& files, std::string* error);
 
 }  // namespace quatro

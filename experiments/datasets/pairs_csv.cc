@@ -62,12 +62,18 @@ std::string PathOf(const fs::path& folder, std::string cell) {
 }
 
 bool ReadPose(const CsvRow& row, PairTask* task, std::string* error) {
-  constexpr double kMaxDeviation = 1e-3;  // Deviation from unit length.
+  constexpr double kMaxDeviation = 1e-3;   // Deviation from unit length.
+  constexpr double kMaxTranslation = 1e9;  // [m]
   double values[7];
   for (std::size_t i = 0; i < 7; ++i) {
     const auto value = ParseFiniteNumber(row.cells.at(kPose[i]));
     if (!value) {
       *error = row.where + ": " + kPose[i] + " is not a finite number";
+      return false;
+    }
+    if (i < 3 && std::abs(*value) > kMaxTranslation) {
+      *error = row.where + ": " + kPose[i] + " is " +
+               Quoted(row.cells.at(kPose[i])) + " m, must be within +-1e9 m";
       return false;
     }
     values[i] = *value;

@@ -5,10 +5,11 @@
 //
 //   source,target           files, relative to the list's folder
 //   set                     optional; default: the list's name
-//   tx,ty,tz,qx,qy,qz,qw    target_from_source [m]; all or none of the columns.
-//                           Empty cells: the scans share no place. No columns:
-//                           the true pose is unknown, so that no answer counts
-//                           as correct or incorrect, unless `apart` is set
+//   tx,ty,tz,qx,qy,qz,qw    target_from_source, within +-1e9 m; all or none of
+//                           the columns. Empty cells: the scans share no place.
+//                           No columns: the true pose is unknown, so that no
+//                           answer counts as correct or incorrect, unless
+//                           `apart` is set
 //   apart                   optional, for lists without poses; not empty: the
 //                           scans share no place
 //   source_rpy_deg,target_rpy_deg,ins_std_deg

@@ -19,7 +19,11 @@
 namespace quatro {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;
+constexpr double kUnitTolerance = 0.02;  // Quaternions of two digits.
+
+// Larger numbers make infinite costs.
+constexpr double kMaxPoseValue = 1e9;  // [m] or [rad]
+constexpr double kMaxInformation = 1e18;
 
 int NumPoseValues(int dimension) { return dimension == 2 ? 3 : 7; }
 int NumFreedoms(int dimension) { return dimension == 2 ? 3 : 6; }
@@ -41,7 +45,9 @@ class LineReader {
     return static_cast<std::int64_t>(*id);
   }
 
-  Eigen::VectorXd Numbers(int count) {
+  bool HasMore() const { return !Trim(line_).empty(); }
+
+  Eigen::VectorXd Numbers(int count, double largest) {
     Eigen::VectorXd numbers = Eigen::VectorXd::Zero(count);
     for (int i = 0; i < count && problem_->empty(); ++i) {
       const std::string_view word = TakeWord(&line_);
@@ -51,6 +57,9 @@ class LineReader {
                std::to_string(count));
       } else if (!number || !std::isfinite(*number)) {
         Refuse(Quoted(word) + (number ? " is not finite" : " is not a number"));
+      } else if (std::abs(*number) > largest) {
+        Refuse(Quoted(word) + " is too large, must be within " +
+               (largest == kMaxPoseValue ? "+-1e9 m or rad" : "+-1e18"));
       } else {
         numbers[i] = *number;
       }
@@ -59,13 +68,13 @@ class LineReader {
   }
 
   Rigid3 Pose(int dimension) {
-    const Eigen::VectorXd v = Numbers(NumPoseValues(dimension));
+    const Eigen::VectorXd v = Numbers(NumPoseValues(dimension), kMaxPoseValue);
     if (!problem_->empty()) return {};
     if (dimension == 2) return {RotationZ(v[2]), {v[0], v[1], 0.0}};
     Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (std::abs(q.norm() - 1.0) > kUnitTolerance) {
       Refuse("quaternion has length " + std::to_string(q.norm()) +
-             ", must be 1");
+             ", must be 1 to 2 %");
       return {};
     }
     q.normalize();
@@ -74,7 +83,7 @@ class LineReader {
 
   Eigen::MatrixXd Information(int dimension) {
     const int n = NumFreedoms(dimension);
-    const Eigen::VectorXd v = Numbers(n * (n + 1) / 2);
+    const Eigen::VectorXd v = Numbers(n * (n + 1) / 2, kMaxInformation);
     Eigen::MatrixXd information(n, n);
     for (int row = 0, k = 0; row < n; ++row) {
       for (int column = row; column < n; ++column, ++k) {
@@ -146,7 +155,9 @@ class G2oReader {
     LineReader reader(line, &problem_);
     if (tag.empty() || tag.starts_with('#')) return;
     if (tag == "FIX") {
-      fixed_.push_back({line_number, reader.Id("pose"), 0});
+      do {
+        fixed_.push_back({line_number, reader.Id("pose"), 0});
+      } while (problem_.empty() && reader.HasMore());
     } else if (tag == "VERTEX_SE2" || tag == "VERTEX_SE3:QUAT") {
       TakeDimension(tag == "VERTEX_SE2" ? 2 : 3, &reader);
       const std::int64_t id = reader.Id("pose");

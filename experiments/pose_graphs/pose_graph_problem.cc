@@ -232,6 +232,13 @@ PoseGraphSummary SolvePoseGraph(const PoseGraphOptions& options,
       summary.weights[i] = LossWeight(problem.problem(), problem.ids()[i]);
     }
   }
+  double cost = 0.0;
+  if (summary.is_usable &&
+      (!problem.problem().Evaluate({}, &cost, nullptr, nullptr, nullptr) ||
+       !std::isfinite(cost))) {
+    summary.is_usable = false;
+    summary.report += "; failed, because the final cost is not finite";
+  }
   if (summary.is_usable) graph->world_from_pose = problem.WorldFromPose();
   summary.seconds = stopwatch.Lap();
   return summary;

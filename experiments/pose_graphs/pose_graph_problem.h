@@ -47,8 +47,8 @@ struct PoseGraphOptions {
 };
 
 struct PoseGraphSummary {
-  bool is_usable = false;
-  std::string report;  // One line.
+  bool is_usable = false;  // There is a solution, and its cost is finite.
+  std::string report;      // One line.
   // The weight per edge: GNC's, or the derivative of the loss at the solution;
   // 1 if nothing is weighted. An edge with weight 0 does not affect the
   // solution.

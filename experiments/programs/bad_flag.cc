@@ -7,10 +7,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <numeric>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
+
+#include "robust/registration/methods.h"
 
 namespace quatro {
 namespace {
@@ -39,30 +43,65 @@ bool IsOfGflags(const gflags::CommandLineFlagInfo& flag) {
   return flag.filename.find("gflags") != std::string::npos;
 }
 
-// The flag with the most similar name, or an empty text if none is similar.
+bool IsFlag(const std::string& name) {
+  gflags::CommandLineFlagInfo flag;
+  return gflags::GetCommandLineFlagInfo(name.c_str(), &flag) &&
+         !IsOfGflags(flag);
+}
+
 std::string NearestFlag(const std::string& name) {
   std::vector<gflags::CommandLineFlagInfo> flags;
   gflags::GetAllFlags(&flags);
-  std::string nearest;
-  // A part of another flag's name, or that name with more, such as
-  // --num_threads.
-  constexpr std::size_t kMinPart = 5;
+  std::vector<std::string> names;
   for (const gflags::CommandLineFlagInfo& flag : flags) {
-    if (IsOfGflags(flag)) continue;
-    if ((name.size() >= kMinPart && flag.name.starts_with(name)) ||
-        (flag.name.size() >= kMinPart && name.ends_with("_" + flag.name))) {
-      return flag.name;
-    }
+    if (!IsOfGflags(flag)) names.push_back(flag.name);
   }
-  // A short name is within a small edit distance of many names.
-  std::size_t least = std::min(kMaxMisspelled, name.size() / 2) + 1;
-  for (const gflags::CommandLineFlagInfo& flag : flags) {
-    const std::size_t distance = EditDistance(name, flag.name);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = flag.name;
+  return NearestName(name, names);
+}
+
+// The flags that quatro_register or quatro_solve has and the other lacks.
+constexpr std::pair<std::string_view, const char*> kFlagsOfOneProgram[] = {
+    {"correspondences", "quatro_solve"},
+    {"correspondences_out", "quatro_register"},
+    {"fpfh_radius", "quatro_register"},
+    {"normal_radius", "quatro_register"},
+    {"output", "quatro_register"},
+    {"output_clouds", "quatro_register"},
+    {"point_floats", "quatro_register"},
+    {"refine", "quatro_register"},
+    {"report", "quatro_register"},
+    {"source", "quatro_register"},
+    {"target", "quatro_register"},
+    {"voxel_size", "quatro_register"}};
+
+// Whether a method on clouds, or on matches alone, has an option of this name.
+bool IsOption(const std::string& name, bool has_clouds) {
+  RegistrationOptions options;
+  return std::ranges::any_of(Methods(), [&](const Method& method) {
+    return std::ranges::any_of(
+        OptionsOf(method, has_clouds, &options),
+        [&](const Option& option) { return option.name == name; });
+  });
+}
+
+// Describes an unknown flag that is one of another program, or an option. Empty
+// if it is neither, or if an option has a flag with a similar name.
+std::string TellFlagOfAnother(const std::string& name) {
+  const std::string unknown = "has no flag --" + name + "; it is one of ";
+  for (const auto& [flag, program] : kFlagsOfOneProgram) {
+    if (name == flag) return unknown + program + "'s";
   }
-  return nearest;
+  if (!IsFlag("options") || IsFlag(name + "_deg") || name == "num_threads") {
+    return "";
+  }
+  const std::string as_option = "--options=" + name + "=...";
+  if (IsOption(name, IsFlag("source"))) {
+    return "--" + name + ": is an option, not a flag; write " + as_option +
+           "; --list_options lists all";
+  }
+  return IsOption(name, /*has_clouds=*/true)
+             ? unknown + "quatro_register's options, " + as_option
+             : "";
 }
 
 // Describes the values of a type of gflags.
@@ -117,13 +156,32 @@ void ReplaceWord(std::string_view word,
   }
 }
 
-bool IsFlag(const std::string& name) {
-  gflags::CommandLineFlagInfo flag;
-  return gflags::GetCommandLineFlagInfo(name.c_str(), &flag) &&
-         !IsOfGflags(flag);
-}
-
 }  // namespace
+
+std::string NearestName(const std::string& name,
+                        const std::vector<std::string>& names) {
+  // A part of another name, or that name with more, such as num_threads.
+  constexpr std::size_t kMinPart = 5;
+  for (const std::string& known : names) {
+    if ((name.size() >= kMinPart && known.starts_with(name)) ||
+        (known.size() >= kMinPart && name.ends_with("_" + known))) {
+      return known;
+    }
+  }
+  // A short name is within a small edit distance of many names.
+  std::string nearest;
+  std::size_t least = std::min(kMaxMisspelled, name.size() / 2) + 1;
+  for (const std::string& known : names) {
+    const std::size_t distance = EditDistance(name, known);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = known;
+  }
+  if (!nearest.empty() || name.size() < kMinPart) return nearest;
+  const auto last_part = std::ranges::find_if(
+      names, [&](const auto& known) { return known.ends_with("_" + name); });
+  return last_part == names.end() ? "" : *last_part;
+}
 
 std::string SpellAsFlags(std::string message) {
   constexpr std::string_view kIs = " = ", kMethod = "method ";
@@ -171,12 +229,33 @@ std::optional<std::string> TellBadFlag(
       if (!given.insert(flag.name).second) return Twice(flag.name);
       continue;
     }
+    const std::string of_another = TellFlagOfAnother(name);
+    if (!of_another.empty()) return of_another;
     const std::string nearest = NearestFlag(name);
     return "--" + name + ": unknown flag" +
            (nearest.empty() ? "" : ", did you mean --" + nearest) +
            "; --help lists all";
   }
   return std::nullopt;
+}
+
+std::string TellNoFlag(const std::string& argument) {
+  for (const char* dash : {"\u2012", "\u2013", "\u2014", "\u2015", "\u2212"}) {
+    if (argument.starts_with(dash)) {
+      return argument + ": starts with a long dash, must start with --";
+    }
+  }
+  std::string problem = argument + ": not a flag, must be --name=value";
+  std::error_code ignored;
+  for (const char* name : {"source", "target", "correspondences", "input"}) {
+    gflags::CommandLineFlagInfo flag;
+    if (std::filesystem::exists(argument, ignored) &&
+        gflags::GetCommandLineFlagInfo(name, &flag) && flag.is_default) {
+      problem += ", for example --" + flag.name + "=" + argument;
+      break;
+    }
+  }
+  return problem + "; --help lists all";
 }
 
 }  // namespace quatro

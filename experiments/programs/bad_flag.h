@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Messages for invalid flags: an unknown flag (with the flag that was probably
-// meant), a value that does not have the type of its flag, and a flag that is
-// given twice.
+// meant, or the program that has it), a value that does not have the type of
+// its flag, a flag that is given twice, and an argument that is no flag.
 
 #ifndef QUATRO_EXPERIMENTS_PROGRAMS_BAD_FLAG_H_
 #define QUATRO_EXPERIMENTS_PROGRAMS_BAD_FLAG_H_
@@ -19,6 +19,16 @@ namespace quatro {
 // do not include the program's name.
 std::optional<std::string> TellBadFlag(
     const std::vector<std::string>& arguments);
+
+// Describes an argument that is not a flag: a file without the name of its
+// flag, or a flag that starts with a long dash, as copied from a formatted
+// text.
+std::string TellNoFlag(const std::string& argument);
+
+// The name that was probably meant: part of it is missing or added, or it is
+// misspelled. Empty if none is similar.
+std::string NearestName(const std::string& name,
+                        const std::vector<std::string>& names);
 
 // Replaces the names of options in a message of the library by the flags of
 // this program, if it has them: "voxel_size = -1, must be > 0" becomes

@@ -24,6 +24,9 @@ namespace {
 // Allows for rounded numbers in a text file.
 constexpr double kMaxRotationError = 1e-3;
 
+// Levels of JSON, which is written by recursion.
+constexpr int kMaxDepth = 100;
+
 constexpr char kExpected[] =
     ", must be 4 numbers x,y,z,yaw_deg, or 12 or 16, the rows of "
     "target_from_source";
@@ -84,8 +87,19 @@ std::optional<Rigid3> ParseGuess(const std::string& guess, std::string* error) {
     }
     text = *bytes;
     // The answer of quatro_register or quatro_solve.
-    const auto answer =
-        nlohmann::json::parse(text, /*cb=*/nullptr, /*allow_exceptions=*/false);
+    bool is_too_deep = false;
+    const auto answer = nlohmann::json::parse(
+        text,
+        [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+          is_too_deep = is_too_deep || depth > kMaxDepth;
+          return depth <= kMaxDepth;
+        },
+        /*allow_exceptions=*/false);
+    if (is_too_deep) {
+      *error = where + ": is nested more than " + std::to_string(kMaxDepth) +
+               " levels deep" + kExpected;
+      return std::nullopt;
+    }
     if (answer.is_object() && answer.contains("target_from_source")) {
       text = answer["target_from_source"].dump();
     }

@@ -5,6 +5,7 @@
 
 #include "experiments/base/number_text.h"
 #include "experiments/datasets/open_dataset.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/ins_flags.h"
 #include "experiments/protocols/problem_families.h"
 #include "experiments/runner/run_problem.h"
@@ -57,6 +58,10 @@ DEFINE_int32(min_frame_gap,
 DEFINE_double(min_path,
               50.0,
               "For loop, timing, tilt: path between visits [m]");
+DEFINE_double(min_pair_spacing,
+              0.0,
+              "For loop, timing, tilt: least path between frames that are "
+              "used [m]; 0: all frames");
 DEFINE_string(intervals,
               "1,3,5",
               "For interval, odometry: frame intervals; yaw uses the last");
@@ -128,8 +133,7 @@ std::vector<std::string> SplitNames(const std::string& text) {
 std::optional<RegistrationOptions> OptionsOfFlags(std::string* error) {
   auto options = MakePreset(FLAGS_preset == "auto" ? "kitti" : FLAGS_preset);
   if (!options) {
-    *error = "--preset=" + FLAGS_preset + ", must be auto";
-    for (const std::string& name : PresetNames()) *error += ", " + name;
+    *error = UnknownPreset(FLAGS_preset, /*has_auto=*/true);
     return std::nullopt;
   }
   options->seed = FLAGS_seed;
@@ -202,6 +206,7 @@ std::optional<PairSelection> TasksOfFlags(std::string* error) {
   protocol.bins = *bins;
   protocol.min_frame_gap = FLAGS_min_frame_gap;
   protocol.min_path = FLAGS_min_path;
+  protocol.min_pair_spacing = FLAGS_min_pair_spacing;
   const auto intervals = IntervalsOfFlags(error);
   if (!intervals) return std::nullopt;
   protocol.intervals = *intervals;

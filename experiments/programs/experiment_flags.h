@@ -26,6 +26,7 @@ DECLARE_bool(list_methods);
 DECLARE_string(bins);
 DECLARE_int32(min_frame_gap);
 DECLARE_double(min_path);
+DECLARE_double(min_pair_spacing);
 DECLARE_int32(max_frames);
 DECLARE_int32(point_floats);
 DECLARE_string(limits);

@@ -8,8 +8,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
 #include "experiments/metrics/registration_metrics.h"
 #include "experiments/programs/experiment_flags.h"
@@ -49,6 +51,22 @@ constexpr char kUsage[] =
     "Progress is printed on standard error.\n"
     "Exits with 0; 2 if a flag or a file is invalid; 3 if it was interrupted.";
 
+// Flags that the other protocols would ignore.
+constexpr quatro::FlagUse kFlagUses[] = {
+    {"bins", "loop, timing, tilt"},
+    {"min_frame_gap", "loop, timing, tilt"},
+    {"min_path", "loop, timing, tilt"},
+    {"min_pair_spacing", "loop, timing, tilt"},
+    {"intervals", "interval, yaw, odometry"},
+    {"yaw_step_deg", "yaw"},
+    {"max_pairs", "loop, interval, yaw, timing"},
+    {"max_pairs_per_source", "loop, timing"},
+    {"max_frames", "odometry"},
+    {"pairs", "pairs"},
+    {"families", "synthetic"},
+    {"max_matches", "sizes"},
+    {"outliers", "film"}};
+
 constexpr long kMaxMatches = 1'000'000'000;  // 48 GB of points.
 
 std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
@@ -83,7 +101,8 @@ std::optional<quatro::Table> RunSynthetic(const std::string& protocol) {
 int LeaveTables(const quatro::TableOptions& options) {
   std::string error, summary;
   const auto report_template = quatro::ReadReportTemplate(&error);
-  if (!report_template) std::fprintf(stderr, "%s\n", error.c_str());
+  if (!report_template)
+    std::fprintf(stderr, "%s\n", quatro::OneLine(error).c_str());
   if (!quatro::WriteTables(
           FLAGS_output, options, report_template, &summary, &error)) {
     return Fail(error);
@@ -109,13 +128,13 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
   const auto selection = quatro::TasksOfFlags(&error);
   if (!selection) return Fail(error);
   for (const std::string& note : selection->notes) {
-    std::fprintf(stderr, "%s\n", note.c_str());
+    std::fprintf(stderr, "%s\n", quatro::OneLine(note).c_str());
   }
   if (selection->tasks.empty()) {
     return Fail(
         "there are no pairs to run: no two scans are as far apart as asked "
-        "for; see --sequences, --bins, --intervals, --min_frame_gap and "
-        "--min_path");
+        "for; see --sequences, --bins, --intervals, --min_frame_gap, "
+        "--min_path and --min_pair_spacing");
   }
   quatro::PairExperiment experiment;
   experiment.tasks = selection->tasks;
@@ -151,7 +170,7 @@ int RunPairs(const std::vector<quatro::OwnMethod>& own) {
 void TellNotes(const std::vector<quatro::SequenceData>& drives) {
   for (const quatro::SequenceData& drive : drives) {
     for (const std::string& note : drive.notes) {
-      std::fprintf(stderr, "%s\n", note.c_str());
+      std::fprintf(stderr, "%s\n", quatro::OneLine(note).c_str());
     }
   }
 }
@@ -180,9 +199,28 @@ bool TakeOdometryManifest(const std::vector<quatro::SequenceData>& drives,
   return quatro::TakeManifest(FLAGS_output, manifest, error);
 }
 
+// Whether --output is new, empty or the folder of a run of this protocol.
+bool CanBeRunFolder(std::string* error) {
+  namespace fs = std::filesystem;
+  if (!quatro::CanBeFolder({"output", FLAGS_output}, error)) return false;
+  std::error_code ignored;
+  if (!fs::exists(FLAGS_output, ignored) ||
+      (fs::is_directory(FLAGS_output, ignored) &&
+       fs::is_empty(FLAGS_output, ignored))) {
+    return true;
+  }
+  auto manifest = quatro::ReadManifest(FLAGS_output + "/manifest.json", error);
+  if (manifest && manifest->flags["protocol"] == FLAGS_protocol) return true;
+  *error = FLAGS_output +
+           ": holds other files, must be new, empty or the folder of a run of "
+           "--protocol=" +
+           FLAGS_protocol;
+  return false;
+}
+
 int RunOdometryProtocol() {
   std::string error;
-  if (!quatro::CanBeFolder({"output", FLAGS_output}, &error)) {
+  if (!CanBeRunFolder(&error)) {
     return Fail(error);
   }
   quatro::OdometryRunOptions options;
@@ -232,7 +270,7 @@ int RunOdometryProtocol() {
 
 int RunTiltProtocol() {
   std::string error;
-  if (!quatro::CanBeFolder({"output", FLAGS_output}, &error)) {
+  if (!CanBeRunFolder(&error)) {
     return Fail(error);
   }
   const auto bins = quatro::ParseBins(FLAGS_bins, &error);
@@ -240,6 +278,7 @@ int RunTiltProtocol() {
   quatro::LoopOptions loop;
   loop.min_frame_gap = FLAGS_min_frame_gap;
   loop.min_path = FLAGS_min_path;
+  loop.min_pair_spacing = FLAGS_min_pair_spacing;
   if (!loop.IsValid(&error)) return Fail(error);
   const auto drives = quatro::DrivesOfFlags(&error);
   if (!drives) return Fail(error);
@@ -279,7 +318,7 @@ int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
     return *exit_code;
   }
   if (FLAGS_list_methods) {
-    std::fputs(quatro::DescribeMethods(own).c_str(), stdout);
+    std::fputs(quatro::DescribePairMethods(own).c_str(), stdout);
     return quatro::kExitDone;
   }
   std::string error;
@@ -302,6 +341,9 @@ int Run(int argc, char** argv, const std::vector<quatro::OwnMethod>& own) {
   if (FLAGS_threads < 0) {
     return Fail(
         quatro::FlagProblem("threads", FLAGS_threads, ">= 0; 0: one per core"));
+  }
+  if (!quatro::UsesAllFlags(FLAGS_protocol, kFlagUses, &error)) {
+    return Fail(error);
   }
   if (IsOfPairs()) return RunPairs(own);
   if (FLAGS_protocol == "odometry") return RunOdometryProtocol();

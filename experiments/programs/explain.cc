@@ -367,7 +367,11 @@ std::string Explain(const Json& report) {
   std::string verdict = report["status"].get<std::string>();
   const double probability = NumberOr(At(report, {"probability"}), 0.0);
   if (!At(report, {"target_from_source"}).is_null()) {
-    verdict += ", correct with a probability of " + Number(probability, 4);
+    const Json tolerance = At(report, {"tolerance"});
+    verdict += ", within " + Number(tolerance["translation_m"]) + " m and " +
+               Number(tolerance["rotation_deg"]) +
+               " deg of the true pose with a probability of " +
+               Number(probability, 4);
   }
   text += Paragraph("verdict",
                     verdict + ": " + report["reason"].get<std::string>());

@@ -42,6 +42,7 @@ Json Describe(const MatchRival& rival) {
 Json Describe(const GeometricEvidence& evidence) {
   const auto& direction = evidence.weakest_direction;
   const GeometricRival& rival = evidence.rival;
+  const auto& search = evidence.search;
   return {
       {"structure_overlap", evidence.structure_overlap},
       {"median_residual_voxels", evidence.median_residual},
@@ -55,7 +56,11 @@ Json Describe(const GeometricEvidence& evidence) {
        OrNull(evidence.rival_free_space.ContradictedShare())},
       {"rival_yaw_deg", rival.yaw * 180.0 / M_PI},
       {"rival_shift_m", {rival.shift.x(), rival.shift.y(), rival.shift.z()}},
-      {"rival_target_from_source", Rows(rival.rival_target_from_source)}};
+      {"rival_target_from_source", Rows(rival.rival_target_from_source)},
+      {"guided_matches",
+       search ? Json(search->num_guided_matches) : Json(nullptr)},
+      {"guided_inliers",
+       search ? Json(search->num_guided_inliers) : Json(nullptr)}};
 }
 
 // The evidence on which the verdict is based.
@@ -155,6 +160,9 @@ Json MakeReport(const std::string& method,
   report["status"] = StatusName(verdict.status);
   report["reason"] = verdict.reason;
   report["probability"] = verdict.probability;
+  report["tolerance"] = {
+      {"translation_m", verdict.tolerance.translation},
+      {"rotation_deg", verdict.tolerance.rotation * 180.0 / M_PI}};
   report["message"] = solution.message;
   report["target_from_source"] = nullptr;
   report["yaw_deg"] = nullptr;

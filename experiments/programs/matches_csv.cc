@@ -7,13 +7,16 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "experiments/base/number_text.h"
 #include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
 #include "features/base/cloud_text.h"
+#include "features/io/cloud_format.h"
 
 namespace quatro {
 namespace {
@@ -42,17 +45,38 @@ std::vector<std::string_view> Fields(std::string_view line) {
   }
 }
 
+constexpr char kExpectedLines[] = "a line for each match: sx,sy,sz,tx,ty,tz";
+
+// Whether the name is that of a cloud in a format that no matches are in.
+bool IsCloud(const std::string& path) {
+  const auto type = FindCloudFileType(path);
+  return type && type->format != CloudFormat::kText;
+}
+
+// What a line with this number of columns may be; empty if unknown.
+std::string GuessKind(std::size_t num_columns) {
+  if (num_columns == 3 || num_columns == 4) {
+    return "; quatro_register registers clouds of points";
+  }
+  if (num_columns == 8 || num_columns == 12) {
+    return "; is this a file of poses?";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::optional<MatchedPoints> ReadMatches(const std::string& path,
                                          std::string* error) {
+  std::error_code ignored;
+  if (IsCloud(path) && std::filesystem::exists(path, ignored)) {
+    *error = path + ": is a cloud by its ending, must be text with " +
+             kExpectedLines + "; quatro_register registers clouds of points";
+    return std::nullopt;
+  }
   const std::optional<std::string> text = ReadInput(path, error);
   if (!text) return std::nullopt;
   const std::string name = path == "-" ? "standard input" : path;
-  if (text->empty()) {
-    *error = name + ": is empty; expected lines of sx,sy,sz,tx,ty,tz";
-    return std::nullopt;
-  }
 
   std::vector<double> values;
   int line_number = 0;
@@ -71,7 +95,8 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
     }
     if (fields.size() != kNames.size()) {
       *error = where + " has " + std::to_string(fields.size()) +
-               " columns, must have 6: sx,sy,sz,tx,ty,tz";
+               " columns, must have 6: sx,sy,sz,tx,ty,tz" +
+               GuessKind(fields.size());
       return std::nullopt;
     }
     const bool is_names =
@@ -94,6 +119,11 @@ std::optional<MatchedPoints> ReadMatches(const std::string& path,
     }
   }
 
+  if (is_first) {
+    *error =
+        name + ": is empty or has only comments, must have " + kExpectedLines;
+    return std::nullopt;
+  }
   if (values.empty()) return MatchedPoints();
   const auto num_matches = static_cast<Eigen::Index>(values.size() / 6);
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> rows(

@@ -17,8 +17,10 @@
 namespace quatro {
 
 // Reads a file, or standard input if `path` is "-". Returns nullopt, with file,
-// line, column and reason in *error, if a line does not have six finite numbers
-// or the file is empty. A file with only a header line has no matches.
+// line, column and reason in *error, if a line does not have six finite
+// numbers, if the file has neither a header nor a match, or if it is a cloud by
+// its name. A file with only a header line has no matches; FormatMatches()
+// writes it.
 std::optional<MatchedPoints> ReadMatches(const std::string& path,
                                          std::string* error);
 

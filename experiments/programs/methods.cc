@@ -34,6 +34,14 @@ bool HasName(const List& list, const std::string& name) {
   });
 }
 
+// "icp             clouds: point to point, ..."
+template <typename Entry>
+std::string LineOf(const Entry& method) {
+  std::string name = method.name;
+  name.resize(std::max<std::size_t>(name.size() + 1, 16), ' ');
+  return name + method.description + "\n";
+}
+
 bool IsKnown(const std::string& name) {
   return HasName(Methods(), name) || HasName(PeerMethods(), name) ||
          HasName(kOdometries, name);
@@ -107,23 +115,32 @@ std::vector<std::string> OdometryMethodNames() {
   return names;
 }
 
-std::string DescribeMethods(const std::vector<OwnMethod>& own) {
+std::string DescribePairMethods(const std::vector<OwnMethod>& own) {
   std::string text;
-  const auto describe = [&text](std::string name,
-                                const std::string& description) {
-    name.resize(std::max<std::size_t>(name.size() + 1, 16), ' ');
-    text += name + description + "\n";
-  };
+  for (const auto& method : Methods()) text += LineOf(method);
+  for (const auto& method : PeerMethods()) text += LineOf(method);
+  for (const auto& method : own) text += LineOf(method);
+  return text;
+}
+
+std::string DescribeMatchMethods() {
+  std::string text;
   for (const auto& method : Methods()) {
-    describe(method.name, method.description);
+    if (method.input == MethodInput::kMatches) text += LineOf(method);
   }
   for (const auto& method : PeerMethods()) {
-    describe(method.name, method.description);
+    if (method.make) text += LineOf(method);
   }
-  for (const auto& method : kOdometries) {
-    describe(method.name, method.description);
+  return text;
+}
+
+std::string DescribeMethods() {
+  std::string text;
+  for (const auto& method : Methods()) {
+    if (!NeedsIns(method.name)) text += LineOf(method);
   }
-  for (const auto& method : own) describe(method.name, method.description);
+  for (const auto& method : PeerMethods()) text += LineOf(method);
+  for (const auto& method : kOdometries) text += LineOf(method);
   return text;
 }
 

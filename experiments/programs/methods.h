@@ -25,8 +25,14 @@ std::vector<std::string> ExperimentMethodNames(MethodInput input);
 // Names of the odometries, which need consecutive scans.
 std::vector<std::string> OdometryMethodNames();
 
-// One line per method with its name and description; own methods are last.
-std::string DescribeMethods(const std::vector<OwnMethod>& own = {});
+// One line per method with its name and description: the methods that
+// FindPairSolver() or FindMatchSolver() finds; own methods are last.
+std::string DescribePairMethods(const std::vector<OwnMethod>& own = {});
+std::string DescribeMatchMethods();
+
+// The methods of quatro_odometry: the odometries, and the methods on two clouds
+// that need no INS.
+std::string DescribeMethods();
 
 // Whether the method needs an INS.
 bool NeedsIns(const std::string& name);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
 #include "experiments/datasets/kitti_poses.h"
 #include "experiments/datasets/sequence.h"
@@ -87,7 +88,7 @@ void TellLostScans(const quatro::OdometryRun& run) {
     std::fprintf(stderr,
                  "frame %d lost: %s\n",
                  run.frames[i],
-                 run.steps[i].message.c_str());
+                 quatro::OneLine(run.steps[i].message).c_str());
   }
 }
 

@@ -137,7 +137,9 @@ std::optional<std::string> DrawRegistration(const RegistrationPicture& picture,
   const std::string data_path = folder + "/data.json";
   const std::string picture_path = folder + "/picture.png";
   std::optional<std::string> bytes;
-  if (WriteFileAtomically(data_path, data.dump(), error) &&
+  const std::string json =
+      data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (WriteFileAtomically(data_path, json, error) &&
       RunPython({FindSharedFile("draw_registration.py").string(),
                  data_path,
                  picture_path},

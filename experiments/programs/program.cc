@@ -3,15 +3,20 @@
 
 #include "experiments/programs/program.h"
 
+#include <fcntl.h>
 #include <gflags/gflags.h>
+#include <unistd.h>
 
 #include <quatro/version.h>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
 #include <system_error>
+#include <vector>
 
+#include "experiments/base/flag_files.h"
 #include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
 #include "experiments/programs/bad_flag.h"
@@ -70,11 +75,25 @@ void TellException() {
   std::_Exit(kExitStopped);
 }
 
+// Opens /dev/null in place of closed standard streams. Otherwise the first
+// files that are opened would receive what is printed. Printing fails as before
+// because the direction is the opposite one.
+void OpenStandardStreams() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(fd, F_GETFD) >= 0) continue;
+    const int mode = fd == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (open("/dev/null", mode) != fd) std::_Exit(kExitBadInput);
+  }
+}
+
 }  // namespace
 
 int RunProgram(const std::function<int(int argc, char** argv)>& run,
                int argc,
                char** argv) {
+  OpenStandardStreams();
+  // Beyond ulimit -f, a write fails instead.
+  std::signal(SIGXFSZ, SIG_IGN);
   std::set_terminate(EndOrderly);
   try {
     const int exit_code = run(argc, argv);
@@ -93,9 +112,15 @@ std::optional<int> ParseFlags(const std::string& usage, int argc, char** argv) {
   GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::exit(kExitBadInput); };
   // Fail() prints the program's name.
   gflags::SetArgv(argc, const_cast<const char**>(argv));
-  if (const auto problem = TellBadFlag({argv + 1, argv + argc})) {
-    return Fail(*problem);
-  }
+  std::string error;
+  auto arguments = ExpandFlagFiles({argv + 1, argv + argc}, &error);
+  if (!arguments) return Fail(error);
+  if (const auto problem = TellBadFlag(*arguments)) return Fail(*problem);
+  std::vector<char*> expanded = {argv[0]};
+  for (std::string& argument : *arguments) expanded.push_back(argument.data());
+  argc = static_cast<int>(expanded.size());
+  expanded.push_back(nullptr);
+  argv = expanded.data();
   gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
   if (FLAGS_version) {
     std::printf(
@@ -106,9 +131,7 @@ std::optional<int> ParseFlags(const std::string& usage, int argc, char** argv) {
     gflags::ShowUsageWithFlagsRestrict(argv[0], "/programs/");
     return kExitDone;
   }
-  if (argc > 1)
-    return Fail(std::string(argv[1]) +
-                ": not a flag, must be --name=value; --help lists all");
+  if (argc > 1) return Fail(TellNoFlag(argv[1]));
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -12,8 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
 #include "experiments/programs/aligned_clouds.h"
+#include "experiments/programs/flag_problems.h"
 #include "experiments/programs/json_report.h"
 #include "experiments/programs/matches_csv.h"
 #include "experiments/programs/methods.h"
@@ -77,7 +80,10 @@ quatro::Manifest ManifestOf(const quatro::Json& report) {
   manifest.flags["method"] = FLAGS_method;
   for (const auto& [name, value] : report["parameters"].items()) {
     manifest.flags[name] =
-        value.is_string() ? value.get<std::string>() : value.dump();
+        value.is_string()
+            ? value.get<std::string>()
+            : value.dump(
+                  -1, ' ', false, quatro::Json::error_handler_t::replace);
   }
   return manifest;
 }
@@ -115,8 +121,7 @@ std::optional<quatro::RegistrationOptions> OptionsFromFlags(
     options = quatro::MakeAutoOptions(source, target);
   }
   if (!options) {
-    *error = "--preset=" + FLAGS_preset + ", must be auto";
-    for (const std::string& name : quatro::PresetNames()) *error += ", " + name;
+    *error = quatro::UnknownPreset(FLAGS_preset, /*has_auto=*/true);
     return std::nullopt;
   }
   const auto override_with = [](double flag, double* value) {
@@ -226,7 +231,30 @@ quatro::Json MakeReportOf(const Registered& registered) {
   return report;
 }
 
-void PrintSummary(const quatro::RegistrationSummary& summary) {
+// The longest side of the cloud's box [m].
+double Extent(const quatro::PointCloud& cloud) {
+  return (cloud.points.rowwise().maxCoeff() - cloud.points.rowwise().minCoeff())
+      .maxCoeff();
+}
+
+// Prints a hint if one cloud is so much wider than the other that their units
+// probably differ.
+void HintAtUnits(const quatro::PointCloud& source,
+                 const quatro::PointCloud& target) {
+  constexpr double kMinFactor = 50.0;
+  const auto [narrow, wide] = std::minmax({Extent(source), Extent(target)});
+  if (!(narrow > 0.0 && wide >= kMinFactor * narrow)) return;
+  std::fprintf(stderr,
+               "the clouds are %.6g m and %.6g m wide, a factor of %.0f: their "
+               "units may differ; convert both to meters, or remove stray "
+               "points\n",
+               Extent(source),
+               Extent(target),
+               wide / narrow);
+}
+
+void PrintSummary(const Registered& registered) {
+  const quatro::RegistrationSummary& summary = registered.summary;
   std::fprintf(stderr,
                "%-12s %9.1f ms\n%s\n",
                "total",
@@ -236,10 +264,13 @@ void PrintSummary(const quatro::RegistrationSummary& summary) {
   if (std::filesystem::equivalent(FLAGS_source, FLAGS_target, ignored)) {
     std::fprintf(stderr, "source and target are the same file\n");
   }
+  if (!summary.verdict.IsRegistered()) {
+    HintAtUnits(registered.source, registered.target);
+  }
   if (!FLAGS_output.empty() && !summary.target_from_source()) {
     std::fprintf(stderr,
                  "%s: not written, because there is no pose\n",
-                 FLAGS_output.c_str());
+                 quatro::OneLine(FLAGS_output).c_str());
   }
 }
 
@@ -302,7 +333,7 @@ int Main(int argc, char** argv) {
   const auto registered = ReadAndRegister(&error);
   if (!registered) return Fail(error);
   const quatro::RegistrationSummary& summary = registered->summary;
-  PrintSummary(summary);
+  PrintSummary(*registered);
   const quatro::Json report = MakeReportOf(*registered);
   auto files = MakeFiles(*registered, aligned, report_template, report, &error);
   if (!files) return Fail(error);

@@ -6,22 +6,31 @@
 #include <gflags/gflags.h>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <set>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
+#include "experiments/programs/bad_flag.h"
 #include "experiments/programs/bound_flags.h"
 #include "experiments/programs/explain.h"
 #include "experiments/programs/ins_flags.h"
 #include "experiments/programs/methods.h"
 #include "experiments/programs/program.h"
+#include "features/base/cloud_text.h"
+#include "robust/registration/any_vertical.h"
 #include "robust/registration/methods.h"
 
 DEFINE_bool(list_methods, false, "List the methods and exit");
 DEFINE_string(options,
               "",
-              "Further options of the method, name=value;name=value; see "
-              "--list_options");
-DEFINE_bool(list_options, false, "List the options of --method and exit");
+              "Further options of the method, \"name=value;name=value\" in "
+              "quotes; see --list_options");
+DEFINE_bool(list_options,
+            false,
+            "List the options of --method, and the flags that set some of "
+            "them, and exit");
 DEFINE_string(recover,
               "",
               "Re-estimate the translation: on or off; empty: the "
@@ -79,27 +88,44 @@ DEFINE_string(picture, "", "PNG file for the points before and after");
 namespace quatro {
 namespace {
 
+constexpr char kNoScans[] =
+    "gravity = scans has no effect here: it needs two clouds, a method that "
+    "searches other poses, such as quatro, max_rung > 0, and neither an INS "
+    "nor bounds on the pose";
+
 // Sets the option of this name. Returns false and sets *error if there is no
 // such option or the value has another type.
 bool SetOption(const OptionList& list,
                const std::string& name,
                const std::string& value,
                std::string* error) {
-  std::string known;
+  std::vector<std::string> names;
   for (const Option& option : list) {
     if (option.name == name) return option.Parse(value, error);
-    known += (known.empty() ? "" : ", ") + option.name;
+    names.push_back(option.name);
   }
-  *error = "no option " + name + ", must be one of " + known;
+  const std::string nearest = NearestName(name, names);
+  *error = "no option " + name +
+           (nearest.empty() ? "" : ", did you mean " + nearest) +
+           "; --list_options lists all";
   return false;
 }
 
-// Whether the option was also set by a flag.
-bool IsGivenAsFlag(const std::string& option) {
+// The flag that sets the option, too. Returns nullopt if there is none.
+std::optional<gflags::CommandLineFlagInfo> FlagOf(const std::string& option) {
+  constexpr std::pair<std::string_view, const char*> kOtherNames[] = {
+      {"num_threads", "threads"},
+      {"recover_translation", "recover"},
+      {"source_rpy", "source_rpy_deg"},
+      {"target_rpy", "target_rpy_deg"},
+      {"attitude_std", "ins_std_deg"}};
+  std::string name = option;
+  for (const auto& [of_option, of_flag] : kOtherNames) {
+    if (option == of_option) name = of_flag;
+  }
   gflags::CommandLineFlagInfo flag;
-  const std::string name = option == "num_threads" ? "threads" : option;
-  return gflags::GetCommandLineFlagInfo(name.c_str(), &flag) &&
-         !flag.is_default;
+  if (!gflags::GetCommandLineFlagInfo(name.c_str(), &flag)) return std::nullopt;
+  return flag;
 }
 
 // Sets options from "name=value;name=value".
@@ -110,17 +136,23 @@ bool SetOptions(const OptionList& list,
   while (!text.empty()) {
     const std::string_view part = text.substr(0, text.find(';'));
     text.remove_prefix(std::min(text.size(), part.size() + 1));
+    if (Trim(part).empty()) continue;
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos) {
       *error = std::string(part) + ", must be name=value";
       return false;
     }
-    const std::string name(part.substr(0, equals));
-    if (!given.insert(name).second || IsGivenAsFlag(name)) {
+    const std::string name(Trim(part.substr(0, equals)));
+    const std::string value(Trim(part.substr(equals + 1)));
+    const auto flag = FlagOf(name);
+    if (!given.insert(name).second || (flag && !flag->is_default)) {
       *error = name + " is given twice, must be given once";
       return false;
     }
-    if (!SetOption(list, name, std::string(part.substr(equals + 1)), error)) {
+    if (!SetOption(list, name, value, error)) {
+      if (value.find('=') != std::string::npos) {
+        *error += "; options are separated by semicolons";
+      }
       return false;
     }
   }
@@ -171,19 +203,27 @@ bool CheckMethod(const std::string& method,
   return false;
 }
 
-// One line per option of --options that the method reads. Returns an empty text
-// and sets *error for an unknown method.
+// The options that the method reads, then the flags that set some of them, one
+// on each line. Returns an empty text and sets *error for an unknown method.
 std::string DescribeOptionsOf(const std::string& method,
                               bool has_clouds,
                               std::string* error) {
   const Method* found = FindMethod(method, error);
   if (found == nullptr) return {};
   RegistrationOptions options;
-  std::string text;
+  std::string text =
+      "Options, for --options=\"name=value;name=value\", Python and the "
+      "JSON:\n";
+  std::string flags = "Flags that set one of these options:\n";
   for (const Option& option : OptionsOf(*found, has_clouds, &options)) {
-    text += option.name + "  " + option.Describe() + "\n";
+    text += "  " + option.name + "  " + option.Describe() + "\n";
+    if (const auto flag = FlagOf(option.name)) {
+      flags += "  --" + flag->name +
+               (flag->name == option.name ? "" : " (" + option.name + ")") +
+               "  " + flag->description + "\n";
+    }
   }
-  return text;
+  return text + "\n" + flags;
 }
 
 // The output of the JSON: a file, "-", or empty for none. Without --json, it is
@@ -250,12 +290,21 @@ bool ApplyFlags(const std::string& method,
     *error = "--options: " + *error;
     return false;
   }
+  const bool is_asked =
+      FLAGS_gravity == "scans" || of_preset != Gravity::kScans;
+  if (is_asked && options->ins.gravity == Gravity::kScans &&
+      !(found && found->searches && has_clouds && MayLevelByScans(*options))) {
+    *error = kNoScans;
+    return false;
+  }
   return options->IsValid(error);
 }
 
 std::optional<int> PrintLists(const std::string& method, bool has_clouds) {
   if (FLAGS_list_methods) {
-    std::fputs(DescribeMethods().c_str(), stdout);
+    std::fputs(
+        (has_clouds ? DescribePairMethods() : DescribeMatchMethods()).c_str(),
+        stdout);
     return kExitDone;
   }
   if (!FLAGS_list_options) return std::nullopt;
@@ -267,8 +316,12 @@ std::optional<int> PrintLists(const std::string& method, bool has_clouds) {
 }
 
 bool CanWriteAnswer(const std::vector<OutputFlag>& others,
-                    const std::vector<std::string>& inputs,
+                    std::vector<std::string> inputs,
                     std::string* error) {
+  std::error_code ignored;
+  if (std::filesystem::exists(FLAGS_guess, ignored)) {
+    inputs.push_back(FLAGS_guess);
+  }
   std::vector<OutputFlag> outputs = {{"json", JsonPath()},
                                      {"explain", FLAGS_explain ? "-" : ""},
                                      {"picture", FLAGS_picture}};
@@ -293,7 +346,12 @@ int WriteAnswer(const Json& report,
     files.push_back({FLAGS_picture, *drawn});
   }
   const std::string json_path = JsonPath();
-  if (!json_path.empty()) files.push_back({json_path, report.dump(2) + "\n"});
+  if (!json_path.empty()) {
+    // Names of files need not be UTF-8.
+    files.push_back(
+        {json_path,
+         report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"});
+  }
   if (FLAGS_explain) files.push_back({"", Explain(report)});
   if (!WriteOutputs(files, &error)) return Fail(error);
   return verdict.IsRegistered() ? kExitDone : kExitNotVouchedFor;

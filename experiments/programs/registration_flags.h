@@ -38,9 +38,9 @@ bool ApplyFlags(const std::string& method,
 std::optional<int> PrintLists(const std::string& method, bool has_clouds);
 
 // Whether --json, --explain, --picture and `others` can be written. Returns
-// false and sets *error if one of them cannot.
+// false and sets *error if one of them cannot. A file of --guess is an input.
 bool CanWriteAnswer(const std::vector<OutputFlag>& others,
-                    const std::vector<std::string>& inputs,
+                    std::vector<std::string> inputs,
                     std::string* error);
 
 // "registered: 245 of 1109 matches are inliers; ..."

@@ -3,7 +3,6 @@
 
 #include <gflags/gflags.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -11,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/base/number_text.h"
 #include "experiments/base/outputs.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
@@ -129,58 +127,39 @@ constexpr char kUsage[] =
 
 constexpr std::string_view kProtocols = "sequence, drive, pairs, calibration";
 
-struct FlagUse {
-  const char* name;
-  std::string_view protocols;
-};
-
-constexpr FlagUse kFlagUses[] = {{"num_frames", "sequence, drive"},
-                                 {"frame_spacing", "sequence, drive"},
-                                 {"overwrite", "sequence, drive"},
-                                 {"slope_deg", "sequence"},
-                                 {"tilt_sigma_deg", "sequence, drive, pairs"},
-                                 {"drive", "drive"},
-                                 {"sweep_motion", "drive"},
-                                 {"layout", "drive"},
-                                 {"moving_cars", "drive"},
-                                 {"ins_noise_deg", "drive"},
-                                 {"ins_bias_deg", "drive"},
-                                 {"sensor", "drive, pairs"},
-                                 {"world", "pairs"},
-                                 {"pairs", "pairs"},
-                                 {"min_distance", "pairs"},
-                                 {"max_distance", "pairs"},
-                                 {"max_yaw_deg", "pairs"},
-                                 {"min_tilt_deg", "pairs"},
-                                 {"max_tilt_deg", "pairs"},
-                                 {"no_overlap", "pairs"},
-                                 {"features", "pairs"},
-                                 {"ins_std_deg", "pairs"},
-                                 {"scale", "calibration"}};
-
-bool Names(std::string_view list, std::string_view name) {
-  const auto names = quatro::SplitFields(list, ", ");
-  return std::ranges::find(names, name) != names.end();
-}
+constexpr quatro::FlagUse kFlagUses[] = {
+    {"num_frames", "sequence, drive"},
+    {"frame_spacing", "sequence, drive"},
+    {"overwrite", "sequence, drive"},
+    {"slope_deg", "sequence"},
+    {"tilt_sigma_deg", "sequence, drive, pairs"},
+    {"drive", "drive"},
+    {"sweep_motion", "drive"},
+    {"layout", "drive"},
+    {"moving_cars", "drive"},
+    {"ins_noise_deg", "drive"},
+    {"ins_bias_deg", "drive"},
+    {"sensor", "drive, pairs"},
+    {"world", "pairs"},
+    {"pairs", "pairs"},
+    {"min_distance", "pairs"},
+    {"max_distance", "pairs"},
+    {"max_yaw_deg", "pairs"},
+    {"min_tilt_deg", "pairs"},
+    {"max_tilt_deg", "pairs"},
+    {"no_overlap", "pairs"},
+    {"features", "pairs"},
+    {"ins_std_deg", "pairs"},
+    {"scale", "calibration"}};
 
 // Returns whether the protocol is known and takes every given flag.
 bool IsProtocolValid(std::string* error) {
-  if (!Names(kProtocols, FLAGS_protocol)) {
+  if (!quatro::IsListed(kProtocols, FLAGS_protocol)) {
     *error = "--protocol=" + FLAGS_protocol + ", must be one of " +
              std::string(kProtocols);
     return false;
   }
-  for (const auto& [name, protocols] : kFlagUses) {
-    if (gflags::GetCommandLineFlagInfoOrDie(name).is_default ||
-        Names(protocols, FLAGS_protocol)) {
-      continue;
-    }
-    *error = std::string("--") + name +
-             " cannot be used with --protocol=" + FLAGS_protocol +
-             ", only with: " + std::string(protocols);
-    return false;
-  }
-  return true;
+  return quatro::UsesAllFlags(FLAGS_protocol, kFlagUses, error);
 }
 
 // For a sequence that was not completed.

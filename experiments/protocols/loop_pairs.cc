@@ -61,6 +61,9 @@ bool LoopOptions::IsValid(std::string* error) const {
     problem << "min_frame_gap = " << min_frame_gap << ", must be >= 0";
   } else if (!(min_path >= 0.0 && min_path <= 1e6)) {
     problem << "min_path = " << min_path << ", must be in [0, 1e6]";
+  } else if (!(min_pair_spacing >= 0.0 && min_pair_spacing <= 1e6)) {
+    problem << "min_pair_spacing = " << min_pair_spacing
+            << ", must be in [0, 1e6]";
   }
   *error = problem.str();
   return error->empty();
@@ -95,11 +98,15 @@ std::vector<Loop> FindLoops(const SequenceData& data,
   };
   std::vector<Place> places;
   std::vector<Loop> loops;
+  double path = 0.0;
+  std::optional<Eigen::Vector3d> last;
   for (const auto& [frame, pose] : data.world_from_sensor) {
-    const double path =
-        places.empty() ? 0.0
-                       : places.back().path +
-                             (pose.translation - places.back().position).norm();
+    if (last) path += (pose.translation - *last).norm();
+    last = pose.translation;
+    if (!places.empty() &&
+        path - places.back().path < options.min_pair_spacing) {
+      continue;
+    }
     for (const Place& earlier : places) {
       // For later places, both gaps are smaller still.
       if (frame - earlier.frame <= options.min_frame_gap ||

@@ -10,6 +10,10 @@
 // neither a gap nor a path for its loops (Tables I and III). At 10 Hz, 100
 // frames are 10 s. The minimum path excludes a vehicle that waits at a traffic
 // light for longer. The kitti_lc lists have a gap of 250 frames.
+//
+// With min_pair_spacing = d > 0 only some frames are used: the first one, and
+// each that is at least d along the path after the last one used. Two loops
+// then differ by at least d along the path in source or target.
 
 #ifndef QUATRO_EXPERIMENTS_PROTOCOLS_LOOP_PAIRS_H_
 #define QUATRO_EXPERIMENTS_PROTOCOLS_LOOP_PAIRS_H_
@@ -27,7 +31,8 @@ namespace quatro {
 
 struct LoopOptions {
   int min_frame_gap = 100;
-  double min_path = 50.0;  // [m]
+  double min_path = 50.0;         // [m]
+  double min_pair_spacing = 0.0;  // d [m]
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

@@ -78,6 +78,11 @@ Json DescribeRun(const PlannedRun& run) {
           {"last_frame", run.frames.back()}};
 }
 
+// Names of folders need not be UTF-8.
+std::string Dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 // Writes the files of a completed run.
 bool WriteRun(const PlannedRun& plan,
               const OdometryRun& run,
@@ -87,7 +92,7 @@ bool WriteRun(const PlannedRun& plan,
   json["median_seconds"] = run.MedianSeconds();
   return WriteFileAtomically(
              plan.path + ".txt", FormatKittiPoses(run.Poses()), error) &&
-         WriteFileAtomically(plan.path + ".json", json.dump(2) + "\n", error);
+         WriteFileAtomically(plan.path + ".json", Dump(json), error);
 }
 
 // Reads the result of a completed run from its files. Returns nullopt without
@@ -102,7 +107,7 @@ std::optional<OdometryResult> ReadRun(const PlannedRun& plan,
   const auto text = ReadWholeFile(plan.path + ".json", error);
   if (!text) return std::nullopt;
   const Json json = Json::parse(*text, nullptr, false);
-  const Json expected = DescribeRun(plan);
+  const Json expected = Json::parse(Dump(DescribeRun(plan)));
   for (const auto& [key, value] : expected.items()) {
     if (json.is_object() && json.value(key, Json()) == value) continue;
     *error = plan.path + ".json: belongs to another run (" + key +

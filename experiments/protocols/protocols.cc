@@ -23,6 +23,7 @@ std::optional<PairSelection> SelectPairsOf(const SequenceData& drive,
     LoopPairOptions loops;
     loops.loop.min_frame_gap = options.min_frame_gap;
     loops.loop.min_path = options.min_path;
+    loops.loop.min_pair_spacing = options.min_pair_spacing;
     loops.bins = options.bins;
     loops.max_pairs_per_bin = options.max_pairs;
     loops.max_pairs_per_source = options.max_pairs_per_source;

@@ -31,6 +31,7 @@ struct ProtocolOptions {
   std::vector<DistanceBin> bins = TableThreeBins();  // Loop and timing.
   int min_frame_gap = 100;                           // Loops.
   double min_path = 50.0;                            // Loops [m].
+  double min_pair_spacing = 0.0;                     // Loops [m].
   std::vector<int> intervals = {1, 3, 5};  // Interval; yaw takes the last.
   double yaw_step_deg = 30.0;              // Yaw.
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Treats Ctrl-C (SIGINT) and SIGTERM as a request to stop after the current
-// pair; a second signal ends the program at once.
+// Treats Ctrl-C (SIGINT), SIGTERM and, unless it is ignored, SIGHUP as a
+// request to stop after the current pair; a second signal ends the program at
+// once.
 
 #ifndef QUATRO_EXPERIMENTS_RUNNER_STOP_SIGNAL_H_
 #define QUATRO_EXPERIMENTS_RUNNER_STOP_SIGNAL_H_

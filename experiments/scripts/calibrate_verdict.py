@@ -4,7 +4,7 @@
 """Fits the verdict's probability that a pose is correct, and shows how reliable it is.
 
     experiments/scripts/with_python.sh numpy,matplotlib experiments/scripts/calibrate_verdict.py \\
-        [--picture=verdict.png] RESULTS.csv ...
+        [--picture=verdict.png] [--report=RESULTS.csv ...] RESULTS.csv ...
 
 The results come from run_pairs.py, for pairs with and without overlap. A pose is
 correct if it is within 2 m and 10 deg. The model is
@@ -15,9 +15,11 @@ with the features x_j in the results. It is fitted to one half of the pairs by
 minimizing the negative log-likelihood with a ridge on w_j (1e-3 per pair). A hash of
 the scans' names selects the halves, so that they are the same in every run. The table,
 the ROC curve and the reliability diagram use the other half. The model of matches alone
-is fitted without places that have a twin, which matches cannot distinguish. The weights
-for robust/verdict/success_model.cc are printed for the fitted half: the reported model
-is the shipped one.
+is fitted without places that have a twin, which matches cannot distinguish. Poses that
+were searched for have a model of their own. The weights for
+robust/verdict/success_model.cc are printed for the fitted half: the reported model is the
+shipped one. With --report, all pairs of RESULTS.csv are fitted, and those of --report are
+reported.
 
 Exit code: 0; 2 if a flag or a file is invalid, with one line that says which.
 """
@@ -34,7 +36,8 @@ Case = collections.namedtuple("Case", "set is_right features probability status 
 COLUMNS = ("set", "source", "target", "status", "success_2m_10deg", "probability", "features")
 
 
-def read_cases(paths):
+def read_cases(paths, is_reported=None):
+    """A hash of the names says which cases are reported, unless it is given."""
     cases = []
     for path in paths:
         for line, row in read_rows(path, COLUMNS)[0]:
@@ -45,7 +48,7 @@ def read_cases(paths):
                 cases.append(Case(row["set"], row["success_2m_10deg"] == "1",
                                   {key: float(value) for key, value in features.items()},
                                   float(row["probability"] or 0.0), row["status"],
-                                  digest[0] % 2 == 1))
+                                  digest[0] % 2 == 1 if is_reported is None else is_reported))
             except (AttributeError, ValueError):
                 raise BadInput(f"{path}: line {line} is not of run_pairs.py") from None
     if not any(case.features for case in cases):
@@ -112,7 +115,7 @@ def draw(path, models):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     figure, (curve, diagram) = plt.subplots(1, 2, figsize=(11, 5), layout="constrained")
-    for color, (title, y, p) in zip(("tab:blue", "tab:orange"), models):
+    for color, (title, y, p) in zip(("tab:blue", "tab:orange", "tab:green"), models):
         order = np.argsort(-p)
         found = np.cumsum(y[order]) / max(1, y.sum())
         mistaken = np.cumsum(1 - y[order]) / max(1, (1 - y).sum())
@@ -140,18 +143,34 @@ def draw(path, models):
     save_picture(figure, path, dpi=120)
 
 
+# The feature that only poses have that were searched for.
+SEARCHED = "guided"
+
+
+def names_of(cases):
+    return list(max((case.features for case in cases), key=len))
+
+
 def report_all(options):
     """Prints it. Title, truth and probability of each model, for the picture."""
-    cases = read_cases(options.results)
+    cases = read_cases(options.results, False if options.report else None)
+    if options.report:
+        cases += read_cases(options.report, True)
     answered = [case for case in cases if case.features]
     print(f"{len(cases)} pairs, {len(answered)} with an answer, "
           f"{sum(case.is_right for case in answered)} of these right")
-    names = list(max((case.features for case in answered), key=len))
+    own = [case for case in answered if SEARCHED not in case.features]
+    searched = [case for case in answered if SEARCHED in case.features]
+    names = names_of(own or searched)
     models = []
     twins, alike = options.twins.split(","), options.alike.split(",")
-    for title, chosen in (("matches alone", names[:2]), ("matches and clouds", names)):
-        left_out = alike if chosen is names else alike + twins
-        usable = [case for case in answered if all(name in case.features for name in chosen)
+    of_clouds = [("matches and clouds", own, names)] if own else []
+    if searched:
+        of_clouds.append(("searched poses", searched, names_of(searched)))
+    for title, of_model, chosen in [("matches alone", answered, names[:2])] + of_clouds:
+        is_of_clouds = len(chosen) > 2
+        left_out = alike if is_of_clouds else alike + twins
+        usable = [case for case in of_model if all(name in case.features for name in chosen)
                   and case.set not in left_out]
         fitted = [case for case in usable if not case.is_reported]
         reported = [case for case in usable if case.is_reported]
@@ -164,18 +183,18 @@ def report_all(options):
               ", ".join(f"{name} {value:.3f}" for name, value in zip(chosen, w[1:])))
         report(f"  fitted on {len(fitted)}, reported on {len(reported)}", y, p, options.threshold)
         models.append((title, y, p))
-        if chosen is names:
+        if is_of_clouds:
             clear = np.array([not case.set.endswith("_twin") for case in reported])
             report("    without exact twins", y[clear], p[clear], options.threshold)
             clear = np.array([case.set not in twins for case in reported])
             report("    without the sets of --twins", y[clear], p[clear], options.threshold)
-            others = [case for case in answered if case.set in alike]
+            others = [case for case in of_model if case.set in alike]
             if others:
                 report("    different places that are built alike", np.zeros(len(others)),
                        probability(w, matrix(others, chosen)), options.threshold)
             for name in sorted({case.set for case in reported}):
-                own = np.array([case.set == name for case in reported])
-                report(f"    {name}", y[own], p[own], options.threshold)
+                of_set = np.array([case.set == name for case in reported])
+                report(f"    {name}", y[of_set], p[of_set], options.threshold)
     y = np.array([case.is_right for case in answered], float)
     p = np.array([case.probability for case in answered])
     report("\nas the program told, all pairs", y, p, options.threshold)
@@ -185,6 +204,8 @@ def report_all(options):
 def main(args):
     parser = Parser(__doc__)
     parser.add_argument("results", metavar="RESULTS.csv", nargs="+", help="of run_pairs.py")
+    parser.add_argument("--report", metavar="RESULTS.csv", action="append",
+                        help="report on these pairs, and fit to all others; may be given again")
     parser.add_argument("--picture", metavar="FILE.png", help="file for the two diagrams")
     parser.add_argument("--twins", default="corridor,corridor_apart,symmetric,symmetric_twin,symmetric_apart",
                         metavar="SET,SET", help="of places that have a twin, which matches alone "

@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-#include <set>
+#include <regex>
 #include <system_error>
 
 #include "experiments/base/outputs.h"
@@ -17,24 +17,28 @@ namespace fs = std::filesystem;
 
 // Accepts a missing folder, an empty folder or, with `overwrite`, a sequence.
 bool MayReplace(const fs::path& output, bool overwrite, std::string* error) {
-  const std::set<std::string> known = {
-      "velodyne", "poses.txt", "calib.txt", "times.txt", "oxts", "sensors"};
+  const std::regex known(
+      R"((poses|calib|times)\.txt|velodyne(/\d{6,}\.bin)?|)"
+      R"(oxts(/data(/\d{10,}\.txt)?)?|)"
+      R"(sensors(/(sensors|records_lidar|trajectories|records_ins)\.txt)?|)"
+      R"(sensors/records_data(/lidar0(/\d{6,}\.pcd)?)?)");
   std::error_code code;
   if (!fs::exists(output, code)) return true;
   if (!fs::is_directory(output, code)) {
     *error = output.string() + ": exists and is not a folder";
     return false;
   }
-  for (fs::directory_iterator entry(output, code), end; !code && entry != end;
+  for (fs::recursive_directory_iterator entry(output, code), end;
+       !code && entry != end;
        entry.increment(code)) {
-    const std::string name = entry->path().filename().string();
+    const std::string name = entry->path().lexically_relative(output).string();
     if (!overwrite) {
       *error =
           output.string() +
           ": folder is not empty; name another, or replace it by --overwrite";
       return false;
     }
-    if (!known.contains(name)) {
+    if (!std::regex_match(name, known)) {
       *error = output.string() + ": holds '" + name +
                "', which is not part of a sequence; not overwritten";
       return false;

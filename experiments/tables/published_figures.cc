@@ -69,14 +69,29 @@ std::vector<PublishedErrors> PublishedTableThree() {
 }
 
 std::vector<PublishedRate> PublishedKittiLc() {
-  return {
-      {"FPFH+RANSAC", "all", 71.4},
-      {"FPFH+TEASER++", "all", 74.4},
-      {"FPFH+Quatro", "all", 79.7},
-      {"KISS-Matcher", "all", 52.1},
-      {"PAGOR", "all", 83.1},
-      {"G3Reg", "all", 86.5},
+  constexpr const char* kSets[] = {"0-10 m", "10-20 m", "20-30 m"};
+  constexpr struct {
+    const char* method;
+    double all;
+    double percent[3];  // Negative if it was not published.
+  } kRows[] = {
+      {"FPFH+RANSAC", 71.4, {98.7, 80.8, 42.9}},
+      {"FPFH+TEASER++", 74.4, {99.0, 84.9, 47.0}},
+      {"FPFH+Quatro", 79.7, {99.3, 90.2, 55.8}},
+      {"KISS-Matcher", 52.1, {-1.0, -1.0, -1.0}},
+      {"PAGOR", 83.1, {100.0, 93.8, 61.1}},
+      {"PARTE", 85.8, {-1.0, -1.0, -1.0}},
+      {"G3Reg", 86.5, {98.6, 93.1, 71.8}},
   };
+  std::vector<PublishedRate> rates;
+  for (const auto& row : kRows) {
+    rates.push_back({row.method, "all", row.all});
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (row.percent[i] < 0.0) continue;
+      rates.push_back({row.method, kSets[i], row.percent[i]});
+    }
+  }
+  return rates;
 }
 
 }  // namespace quatro

@@ -87,10 +87,21 @@ std::vector<RunTable> MakeRunTables(const std::vector<PairResult>& results,
   const auto lc = OfKittiLc(results);
   const SuccessLimit lc_limit{2.0, 5.0 * M_PI / 180.0};
   add("kitti_lc",
-      "Success [%] on kitti_lc, within " + lc_limit.Name() + ".",
+      "Success [%] in the bins of kitti_lc, within " + lc_limit.Name() +
+          "; published rows are on real scans.",
       [&](TableOptions o) {
         o.limits = {lc_limit};
         return MakeSuccessTable(lc, o, PublishedKittiLc());
+      });
+  const auto far =
+      lc.empty()
+          ? lc
+          : SelectResults(results, std::nullopt, std::nullopt, "20-30 m");
+  add("kitti_lc_far",
+      "Success [%] on pairs 20-30 m apart, within " + lc_limit.Name() + ".",
+      [&](TableOptions o) {
+        o.limits = {lc_limit};
+        return MakeSuccessTable(far, o, {});
       });
   const auto three = OfTableThree(results);
   add("table_three",

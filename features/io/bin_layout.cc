@@ -24,6 +24,9 @@ constexpr std::size_t kNumSamples = 1 << 13;
 constexpr double kMaxCoordinate = 8e6;       // [m]
 constexpr double kMaxShareSenseless = 0.01;  // Stray points.
 
+// In a file of few points, stray points may have a larger share.
+constexpr double kMaxShareSenselessOfFew = 0.1;
+
 // Values have c columns only if G(c) is below this share of G(1).
 constexpr double kMaxShareOfUnstructured = 0.98;
 
@@ -168,6 +171,38 @@ std::string WrongCoordinates(double largest) {
   return text;
 }
 
+// Whether most values that are not zero are tiny, as integers are if they are
+// read as float32. Of points of `num_values` values, only the coordinates
+// count.
+bool AreIntegers(std::span<const Sample> samples, std::size_t num_values) {
+  constexpr double kTiny = 1e-30;
+  std::size_t num_nonzero = 0, num_tiny = 0;
+  for (const Sample& sample : samples) {
+    if (sample.g == 0.0 || sample.index % num_values >= 3) continue;
+    ++num_nonzero;
+    if (std::abs(sample.g) < kTiny) ++num_tiny;
+  }
+  return 2 * num_tiny > num_nonzero;
+}
+
+// Whether a file with few points could as well be of another layout than
+// float32 x y z intensity: its size divides, and its columns are more alike.
+// An intensity that never changes leaves no doubt.
+bool IsAmbiguous(const Values& values, std::span<const Sample> samples) {
+  constexpr std::size_t kKittiValues = 4;
+  const std::size_t size = values.Size();
+  bool is_constant = true;
+  for (std::size_t i = 3; i < size && is_constant; i += kKittiValues) {
+    is_constant = values.At(i) == values.At(3);
+  }
+  if (is_constant || samples.empty()) return false;
+  const double difference = MeanDifference(samples, kKittiValues);
+  for (const std::size_t c : {3u, 5u, 6u}) {
+    if (size % c == 0 && MeanDifference(samples, c) < difference) return true;
+  }
+  return false;
+}
+
 std::string NotWholePoints(std::size_t size, const BinLayout& layout) {
   return "size " + std::to_string(size) + " bytes is not a multiple of " +
          std::to_string(layout.PointSize()) + " (" +
@@ -242,14 +277,23 @@ std::optional<BinLayout> FindBinLayout(std::string_view bytes,
   BinLayout layout;
   if (num_values > 0) layout.num_values = num_values;
   const bool is_scan = bytes.size() >= kMinNumPoints * layout.PointSize();
-  if (is_scan && bytes.size() % sizeof(float) == 0) {
+  if (bytes.size() % sizeof(float) == 0) {
     auto samples = DrawSamples({bytes, layout.type});
-    if (IsDouble(bytes, samples)) {
+    if (is_scan && IsDouble(bytes, samples)) {
       layout.type = ScalarType::kFloat64;
       if (num_values == 0) samples = DrawSamples({bytes, layout.type});
     }
+    if (layout.type == ScalarType::kFloat32 &&
+        AreIntegers(
+            samples,
+            num_values > 0 ? static_cast<std::size_t>(num_values) : 1)) {
+      *error =
+          "is not float32, because most numbers are below 1e-30; if they are "
+          "integers, convert them to float32";
+      return std::nullopt;
+    }
     // Without samples there is no finite point, which ParseKittiBin() reports.
-    if (num_values == 0 && !samples.empty()) {
+    if (is_scan && num_values == 0 && !samples.empty()) {
       const auto found = NumValuesOf({bytes, layout.type}, samples, error);
       if (!found) return std::nullopt;
       layout.num_values = *found;
@@ -258,6 +302,19 @@ std::optional<BinLayout> FindBinLayout(std::string_view bytes,
   if (bytes.size() % layout.PointSize() != 0) {
     *error = NotWholePoints(bytes.size(), layout);
     return std::nullopt;
+  }
+  if (!is_scan && num_values == 0) {
+    const Values values{bytes, layout.type};
+    const auto samples = DrawSamples(values);
+    if (ShareOfSenseless(samples) > kMaxShareSenselessOfFew) {
+      *error = WrongCoordinates(std::sinh(
+          std::max(std::abs(samples.front().g), std::abs(samples.back().g))));
+      return std::nullopt;
+    }
+    if (IsAmbiguous(values, samples)) {
+      *error = "has too few points to tell the layout; set point_floats";
+      return std::nullopt;
+    }
   }
   return layout;
 }

@@ -25,8 +25,12 @@
 // either noise, two in five times beyond 8e6, or zero. Coordinates beyond 8e6
 // m, slightly more than the Earth's radius, make no sense.
 //
-// A file of fewer than 64 points is read as float32 x y z intensity without
-// these tests.
+// A file of fewer than 64 points is read as float32 x y z intensity. It is an
+// error if its size allows 3, 5 or 6 values with a smaller G, unless the
+// intensity is constant.
+//
+// Integers read as float32 are tiny. It is an error if most values that are not
+// zero are below 1e-30.
 //
 // Source: Szekely and Rizzo, "Energy statistics", JSPI 2013, for the
 // inequality.

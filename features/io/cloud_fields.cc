@@ -95,6 +95,11 @@ void AppendLittleEndian(double value, std::string* bytes) {
   Append(value, bytes);
 }
 
+bool FitsFloat32(double coordinate) {
+  constexpr double kMaxRounding = 1e-3;  // [m]
+  return std::abs(static_cast<float>(coordinate) - coordinate) <= kMaxRounding;
+}
+
 std::optional<CloudColumns> FindCloudColumns(
     const std::vector<std::string_view>& names, std::string* error) {
   const auto find = [&](std::string_view name) -> std::optional<std::size_t> {

@@ -43,6 +43,9 @@ double DecodeScalar(const char* bytes, ScalarType type, std::endian order);
 void AppendLittleEndian(float value, std::string* bytes);
 void AppendLittleEndian(double value, std::string* bytes);
 
+// Whether the coordinate as float32 is finite and within 1 mm.
+bool FitsFloat32(double coordinate);
+
 // The fields of a row that are x, y, z and intensity. Only the intensity may be
 // missing.
 using CloudColumns = std::array<std::optional<std::size_t>, 4>;

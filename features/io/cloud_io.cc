@@ -24,6 +24,29 @@ namespace {
 
 constexpr std::string_view kNpyMagic = "\x93NUMPY";
 
+// Says what the file is if its first bytes are those of another type; empty
+// otherwise.
+std::string OtherType(CloudFormat format, std::string_view bytes) {
+  const auto is = [&](CloudFormat other, std::string_view start) {
+    return format != other && bytes.starts_with(start);
+  };
+  if (is(CloudFormat::kNpy, kNpyMagic)) return "is a NumPy array; name it .npy";
+  if (bytes.starts_with("\x1f\x8b\x08")) {
+    return "is gzip-compressed; add .gz to its name, or run gunzip";
+  }
+  const std::string_view foreign = DescribeForeignFile(bytes);
+  if (!foreign.empty() && !bytes.starts_with(kNpyMagic)) {
+    return std::string(foreign);
+  }
+  if (is(CloudFormat::kPcd, "# .PCD") || is(CloudFormat::kPcd, "VERSION ")) {
+    return "is a PCD file; name it .pcd";
+  }
+  if (is(CloudFormat::kPly, "ply\n") || is(CloudFormat::kPly, "ply\r")) {
+    return "is a PLY file; name it .ply";
+  }
+  return "";
+}
+
 std::optional<PointCloud> Parse(CloudFormat format,
                                 std::string_view bytes,
                                 const ReadCloudOptions& options,
@@ -40,8 +63,12 @@ std::optional<PointCloud> Parse(CloudFormat format,
     case CloudFormat::kBin:
       break;
   }
-  // The header of a NumPy array would be read as points.
-  if (bytes.starts_with(kNpyMagic)) return std::nullopt;  // See ReasonOf().
+  // A header would be read as points. Scans may begin with the two bytes of
+  // UTF-16 by chance.
+  const bool may_be_number =
+      bytes.starts_with('\xff') || bytes.starts_with('\xfe');
+  if (!may_be_number) *error = OtherType(CloudFormat::kBin, bytes);
+  if (!error->empty()) return std::nullopt;
   // Lines of equal length would have columns, too.
   if (LooksLikeText(bytes)) {
     *error =
@@ -50,28 +77,6 @@ std::optional<PointCloud> Parse(CloudFormat format,
     return std::nullopt;
   }
   return ParseKittiBin(bytes, options.point_floats, error);
-}
-
-// Replaces a parser's reason if the file is of another type.
-std::string ReasonOf(CloudFormat format,
-                     std::string_view bytes,
-                     const std::string& reason) {
-  const auto is = [&](CloudFormat other, std::string_view start) {
-    return format != other && bytes.starts_with(start);
-  };
-  if (is(CloudFormat::kNpy, kNpyMagic)) return "is a NumPy array; name it .npy";
-  if (bytes.starts_with("\x1f\x8b\x08")) {
-    return "is gzip-compressed; add .gz to its name, or run gunzip";
-  }
-  const std::string_view foreign = DescribeForeignFile(bytes);
-  if (!foreign.empty() && !bytes.starts_with(kNpyMagic)) {
-    return std::string(foreign);
-  }
-  if (is(CloudFormat::kPcd, "# .PCD")) return "is a PCD file; name it .pcd";
-  if (is(CloudFormat::kPly, "ply\n") || is(CloudFormat::kPly, "ply\r")) {
-    return "is a PLY file; name it .ply";
-  }
-  return reason;
 }
 
 // A cloud that ReadCloud() would not read back is not written.
@@ -139,7 +144,10 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
   } catch (const std::exception&) {  // The standard library's and Eigen's.
     reason = "points: do not fit in memory";
   }
-  if (!cloud) *error = path + ": " + ReasonOf(type->format, *bytes, reason);
+  if (!cloud) {
+    const std::string other = OtherType(type->format, *bytes);
+    *error = path + ": " + (other.empty() ? reason : other);
+  }
   return cloud;
 }
 
@@ -157,7 +165,7 @@ std::optional<std::string> FormatCloud(const PointCloud& cloud,
   std::optional<std::string> bytes;
   if (IsWritable(cloud, &reason)) {
     bytes = format == CloudFormat::kBin   ? FormatKittiBin(cloud, &reason)
-            : format == CloudFormat::kPcd ? FormatPcd(cloud, &reason)
+            : format == CloudFormat::kPcd ? FormatPcd(cloud)
                                           : FormatPly(cloud);
   }
   if (!bytes) *error = path + ": " + reason;

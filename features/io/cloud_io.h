@@ -40,9 +40,11 @@ std::optional<PointCloud> ReadCloud(const std::string& path,
 std::optional<PointCloud> ReadCloud(const std::string& path,
                                     std::string* error);
 
-// Writes `.bin` (float32 x y z intensity), `.pcd` (binary, float32 x y z) or
-// `.ply` (binary little-endian, double x y z), the last two with a float
-// intensity if the cloud has one. Returns false and sets *error if that fails.
+// Writes `.bin` (float32 x y z intensity), `.pcd` (binary, float32 x y z, or
+// double if float32 would lose more than 1 mm) or `.ply` (binary little-endian,
+// double x y z), the last two with a float intensity if the cloud has one.
+// Returns false and sets *error if that fails, or if a .bin would lose more
+// than 1 mm.
 // A .bin whose intensities vary as much as its coordinates can be read again
 // only with point_floats = 4.
 bool WriteCloud(const PointCloud& cloud,

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <limits>
 #endif
 
@@ -15,6 +16,8 @@ namespace quatro {
 
 #ifdef QUATRO_HAS_ZLIB
 namespace {
+
+constexpr char kNoMemory[] = "the decompressed data do not fit in memory";
 
 // A stream of zlib, which is closed on destruction.
 class Inflater {
@@ -44,7 +47,8 @@ uInt AtOnce(std::size_t size) {
 
 }  // namespace
 
-std::optional<std::string> Gunzip(std::string_view bytes, std::string* error) {
+std::optional<std::string> Gunzip(std::string_view bytes,
+                                  std::string* error) try {
   if (!bytes.starts_with("\x1f\x8b")) {
     *error = "is not gzip-compressed; remove .gz from its name";
     return std::nullopt;
@@ -79,12 +83,25 @@ std::optional<std::string> Gunzip(std::string_view bytes, std::string* error) {
     const bool has_moved =
         num_in != stream->avail_in || num_out != stream->avail_out;
     if (status == Z_OK && has_moved) continue;
-    *error = bytes.empty() ? "the gzip data end early; is the file truncated?"
-                           : "the gzip data are damaged; repeat the download";
+    *error = status == Z_MEM_ERROR ? kNoMemory
+             : bytes.empty() ? "the gzip data end early; is the file truncated?"
+                             : "the gzip data are damaged; repeat the download";
     return std::nullopt;
   }
   text.resize(size);
+  if (text.empty()) {
+    *error =
+        "is gzip-compressed, but contains no data; compress the file again";
+    return std::nullopt;
+  }
+  if (text.starts_with("\x1f\x8b\x08")) {
+    *error = "is gzip-compressed twice; run gunzip once";
+    return std::nullopt;
+  }
   return text;
+} catch (const std::exception&) {  // std::bad_alloc or std::length_error.
+  *error = kNoMemory;
+  return std::nullopt;
 }
 
 #else

@@ -12,8 +12,9 @@
 namespace quatro {
 
 // Decompresses all members of the file, one after the other. Returns nullopt
-// and sets *error, without a path, if `bytes` are not gzip, are truncated or
-// damaged, or if the library was built without zlib.
+// and sets *error, without a path, if `bytes` are not gzip, are truncated,
+// damaged, without data or compressed twice, if the data do not fit in memory,
+// or if the library was built without zlib.
 std::optional<std::string> Gunzip(std::string_view bytes, std::string* error);
 
 }  // namespace quatro

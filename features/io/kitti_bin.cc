@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 
 #include "features/io/bin_layout.h"
 #include "features/io/cloud_fields.h"
@@ -48,6 +49,17 @@ std::optional<std::string> FormatKittiBin(const PointCloud& cloud,
       if (!std::isfinite(rounded)) {
         *error =
             "point " + std::to_string(i) + ": is beyond the range of float32";
+        return std::nullopt;
+      }
+      if (!FitsFloat32(coordinate)) {
+        const float next = std::nextafter(std::abs(rounded), INFINITY);
+        std::array<char, 120> text;
+        std::snprintf(text.data(),
+                      text.size(),
+                      ": float32 keeps only %.2g m at these coordinates; write "
+                      "a .ply or .pcd",
+                      static_cast<double>(next - std::abs(rounded)));
+        *error = "point " + std::to_string(i) + text.data();
         return std::nullopt;
       }
       AppendLittleEndian(rounded, &bytes);

@@ -24,7 +24,7 @@ std::optional<PointCloud> ParseKittiBin(std::string_view bytes,
 
 // Coordinates are rounded to float32. If the cloud has no intensity, zeros are
 // written. Returns nullopt and sets *error if a coordinate is outside the range
-// of float32.
+// of float32 or would be rounded by more than 1 mm.
 std::optional<std::string> FormatKittiBin(const PointCloud& cloud,
                                           std::string* error);
 

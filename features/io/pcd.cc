@@ -5,6 +5,7 @@
 
 #include <lzf.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -202,12 +203,15 @@ std::optional<PointCloud> ParsePcd(std::string_view bytes, std::string* error) {
       *header, *columns, bytes, /*is_field_by_field=*/false, error);
 }
 
-std::optional<std::string> FormatPcd(const PointCloud& cloud,
-                                     std::string* error) {
+std::string FormatPcd(const PointCloud& cloud) {
   const bool has_intensity = cloud.intensity.size() != 0;
+  const auto* const coordinates = cloud.points.data();
+  const bool is_float =
+      std::all_of(coordinates, coordinates + cloud.points.size(), FitsFloat32);
   const std::string count = std::to_string(cloud.points.cols());
   std::string bytes = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7";
-  for (const char* line : {"FIELDS x y z", "SIZE 4 4 4", "TYPE F F F"}) {
+  for (const char* line :
+       {"FIELDS x y z", is_float ? "SIZE 4 4 4" : "SIZE 8 8 8", "TYPE F F F"}) {
     bytes += std::string("\n") + line;
     if (has_intensity) {
       bytes += *line == 'F' ? " intensity" : *line == 'S' ? " 4" : " F";
@@ -218,13 +222,11 @@ std::optional<std::string> FormatPcd(const PointCloud& cloud,
            count + "\nDATA binary\n";
   for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
     for (const double coordinate : cloud.points.col(i)) {
-      const float rounded = static_cast<float>(coordinate);
-      if (!std::isfinite(rounded)) {
-        *error =
-            "point " + std::to_string(i) + ": is beyond the range of float32";
-        return std::nullopt;
+      if (is_float) {
+        AppendLittleEndian(static_cast<float>(coordinate), &bytes);
+      } else {
+        AppendLittleEndian(coordinate, &bytes);
       }
-      AppendLittleEndian(rounded, &bytes);
     }
     if (has_intensity) AppendLittleEndian(cloud.intensity[i], &bytes);
   }

@@ -22,11 +22,10 @@ namespace quatro {
 // Returns nullopt and sets *error, without a path, if `bytes` contain no cloud.
 std::optional<PointCloud> ParsePcd(std::string_view bytes, std::string* error);
 
-// Writes binary float32 x y z and, if the cloud has one, intensity. Coordinates
-// are rounded. Returns nullopt and sets *error if one is outside the range of
-// float32.
-std::optional<std::string> FormatPcd(const PointCloud& cloud,
-                                     std::string* error);
+// Writes binary x y z and, if the cloud has one, float32 intensity. Coordinates
+// are rounded to float32, unless this would change one by more than 1 mm; then
+// all are written as doubles.
+std::string FormatPcd(const PointCloud& cloud);
 
 }  // namespace quatro
 

@@ -83,8 +83,8 @@ std::vector<TimPair> FindGatedPairs(const DistinctMatches& matches,
   return gated;
 }
 
-// The matches of the pairs that are inliers. There are hundreds of thousands of
-// pairs if many matches are inliers.
+// The matches of the pairs that are inliers. A mask is used, because there are
+// hundreds of thousands of such pairs if many matches are inliers.
 std::vector<Eigen::Index> MatchesOf(
     const std::vector<TimPair>& pairs,
     const Eigen::Array<bool, Eigen::Dynamic, 1>& is_inlier,
@@ -102,8 +102,8 @@ std::vector<Eigen::Index> MatchesOf(
   return candidates;
 }
 
-// Refits the pose to all of its inliers; keeps the refit unless it has fewer
-// inliers. Returns the inliers.
+// Refits the pose to all of its inliers, and keeps the refit unless it has
+// fewer inliers. Returns the inliers.
 std::vector<Eigen::Index> Refit(const DistinctMatches& matches,
                                 double noise_bound,
                                 Rigid3* target_from_source) {
@@ -174,10 +174,9 @@ PoseSummary SolveArcConsensus(const PointsRef& source,
   summary.stage_times.push_back({"rotation", stopwatch.Lap()});
   if (!yaw) {
     std::ostringstream message;
-    message << "a heading needs two matches at least "
-            << MinPlanarLength(options)
-            << " m apart that keep their distance, of " << summary.num_matches
-            << " no two were found that do";
+    message << "a heading needs two consistent matches at least "
+            << MinPlanarLength(options) << " m apart; none were found among "
+            << summary.num_matches << " matches";
     summary.message = message.str();
     return summary;
   }

@@ -13,7 +13,8 @@
 namespace quatro {
 namespace {
 
-// Poses outside of the bounds that are set aside before the search ends.
+// The number of poses outside the bounds that are set aside before the search
+// ends.
 constexpr int kMaxNumOutside = 8;
 
 void MapColumns(const std::vector<Eigen::Index>& columns,
@@ -38,7 +39,8 @@ class ColumnSolver {
     return summary;
   }
 
-  // The columns, of those given, within the distance of the pose or beyond it.
+  // The given columns whose residual under the pose is at most the distance,
+  // or, if `are_near` is false, above it.
   std::vector<Eigen::Index> Near(const Rigid3& pose,
                                  double distance,
                                  const std::vector<Eigen::Index>& columns,
@@ -57,8 +59,8 @@ class ColumnSolver {
   const PointsRef& target_;
 };
 
-// The pose of the largest consensus within the bounds, given that of a larger
-// one outside; `outside` if there is none.
+// A pose within the bounds, if the pose of a larger consensus is outside.
+// Returns `outside` without its pose if none is found.
 PoseSummary SolveWithin(const ColumnSolver& solve,
                         const PoseBounds& bounds,
                         double noise_bound,
@@ -75,7 +77,7 @@ PoseSummary SolveWithin(const ColumnSolver& solve,
     if (!summary.IsUsable()) break;
     pose = *summary.target_from_source;
     if (!bounds.Contain(pose, noise_bound)) continue;
-    // The poses outside may have taken some of its inliers with them.
+    // The poses set aside may have taken some inliers of this pose with them.
     PoseSummary again =
         solve(solve.Near(pose, 2.0 * inlier_distance, possible, true));
     if (again.IsUsable() &&
@@ -120,7 +122,7 @@ PoseSolver BoundSolver(PoseSolver solver,
              const PointsRef& source, const PointsRef& target) {
     PoseSummary summary;
     if (!bounds.IsValid(&summary.message)) return summary;
-    // For the solver to refuse.
+    // The solver reports this error.
     if (source.cols() != target.cols()) return solver(source, target);
     const std::vector<Eigen::Index> columns =
         bounds.PossibleInliers(source, target, noise_bound);

@@ -4,8 +4,8 @@
 //
 //   f(R, t) = sum_i min( |q_i - R p_i - t|^2 / b^2, 1 ).                   (1)
 //
-// It does not depend on the axes, unlike the inliers of the translation axis by
-// axis. Poses in SE(3) are compared by it.
+// The cost does not depend on the axes of the frame, unlike the inliers of a
+// translation that is estimated axis by axis. So it compares poses in SE(3).
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_CONSENSUS_H_
 #define QUATRO_ROBUST_ESTIMATORS_CONSENSUS_H_

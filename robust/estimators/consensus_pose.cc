@@ -37,7 +37,7 @@ PoseSummary SolveConsensusPose(const PointsRef& source,
                                const PointsRef& target,
                                const ConsensusPoseOptions& options) {
   PoseSummary summary;
-  summary.num_needed = 2;
+  summary.num_needed = 3;
   if (!options.IsValid(&summary.message) ||
       !AreValidMatches(source, target, &summary.message)) {
     return summary;
@@ -52,7 +52,7 @@ PoseSummary SolveConsensusPose(const PointsRef& source,
   summary.stage_times.push_back({"search", stopwatch.Lap()});
   if (proposals.empty()) {
     summary.termination = PoseTermination::kInsufficient;
-    summary.message = "no two of " + std::to_string(summary.num_matches) +
+    summary.message = "no three of " + std::to_string(summary.num_matches) +
                       " matches are consistent with a yaw and a translation";
     return summary;
   }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The most significant consensus as an estimator: among the poses in yaw and
-// translation found by robust/estimators/consensus_search.h, the one with the
-// largest log-likelihood ratio against chance. There is no graph, no pruning
-// and no GNC. It shows what the votes of all matches give without the geometry
-// of the scans.
+// translation found by robust/estimators/consensus_search.h, the pose with the
+// largest log-likelihood ratio against chance, (3) there. There is no graph, no
+// pruning and no GNC. It shows the result of the votes of all matches without
+// the geometry of the scans. At least three consistent matches are needed.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_CONSENSUS_POSE_H_
 #define QUATRO_ROBUST_ESTIMATORS_CONSENSUS_POSE_H_
@@ -21,7 +21,7 @@ struct ConsensusPoseOptions {
   // Largest horizontal error of an inlier, a radius [m].
   double noise_bound = 0.3;
   double max_tilt = 0.035;  // Between the scans [rad], in [0, pi / 4].
-  int num_threads = 1;      // 0: all cores. Never changes the answer.
+  int num_threads = 1;      // 0: all cores. Does not change the result.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;

@@ -18,23 +18,24 @@ namespace quatro {
 namespace {
 
 // Cells are as wide as the bound. They repeat after a power of two in x and in
-// y, which bounds the memory. Matches that share a cell by that alone are
-// separated in the refinement, where every match is compared with the pose.
+// y, which bounds the memory. Matches that share a cell only for that reason
+// are separated by the refinement, where every match is compared with the pose.
 constexpr int kMinNumCells = 256;
 constexpr int kMaxNumCells = 1024;
 
-constexpr int kNumPerYaw = 16;        // Fullest cells of one yaw that are kept.
-constexpr int kRefinedPerWanted = 2;  // Refined for each proposal wanted.
+constexpr int kNumPerYaw = 16;        // Cells kept per yaw, the fullest.
+constexpr int kRefinedPerWanted = 2;  // Cells refined per proposal.
 constexpr int kNumRefinements = 3;
 constexpr Eigen::Index kYawsPerPiece = 8;
 
-// Single precision cannot compare a farther coordinate with the bound [r].
+// The largest coordinate, in noise bounds, that single precision can compare
+// with the bound.
 constexpr double kMaxBounds = 1e5;
 
-// A block of two by two cells, by its lower corner.
+// A block of two by two cells, given by its lower corner.
 struct Cell {
   int votes = 0;
-  int yaw = 0;  // The step.
+  int yaw = 0;  // Index of the yaw step.
   int x = 0;
   int y = 0;
 };
@@ -45,7 +46,8 @@ bool IsBefore(const Cell& a, const Cell& b) {
   return a.x != b.x ? a.x < b.x : a.y < b.y;
 }
 
-// The matches that can be compared, in bounds, from the middle of each cloud.
+// The matches that can be compared, in noise bounds, relative to the middle of
+// each cloud.
 struct CenteredMatches {
   std::vector<Eigen::Index> columns;
   Points source;
@@ -101,7 +103,7 @@ float Extent(const Points& points) {
   return static_cast<float>(points.topRows<2>().cwiseAbs().maxCoeff());
 }
 
-// A turn of one step moves a point of typical range by one bound.
+// One yaw step moves a point of typical range by one noise bound.
 int NumYaws(const CenteredMatches& matches) {
   std::vector<double> ranges(static_cast<std::size_t>(matches.source.cols()));
   for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -125,70 +127,114 @@ struct Rows {
         range((px.square() + py.square()).sqrt()) {}
 
   Eigen::ArrayXf px, py, qx, qy;
-  Eigen::ArrayXf dz;     // q - p.
+  Eigen::ArrayXf dz;     // q_z - p_z
   Eigen::ArrayXf range;  // |p_xy|
 };
 
 // Votes of all matches at one yaw, and the fullest blocks of two by two cells.
 class Ballot {
  public:
-  Ballot(const Rows& rows, int num_cells)
+  // Coordinates of translations are less than `extent`.
+  Ballot(const Rows& rows, int num_cells, float extent)
       : rows_(rows),
         num_cells_(num_cells),
+        offset_(std::exp2(std::ceil(std::log2(extent + 1.0f)))),
+        cells_(static_cast<std::size_t>(rows.px.size())),
         votes_(static_cast<std::size_t>(num_cells) *
                static_cast<std::size_t>(num_cells)) {}
 
+  // Appends the fullest blocks of at least three votes, the fullest first.
   void Count(double yaw, int step, std::vector<Cell>* fullest) {
     const auto c = static_cast<float>(std::cos(yaw));
     const auto s = static_cast<float>(std::sin(yaw));
-    std::fill(votes_.begin(), votes_.end(), std::uint16_t{0});
-    x_ = (rows_.qx - c * rows_.px + s * rows_.py).floor().cast<int>();
-    y_ = (rows_.qy - s * rows_.px - c * rows_.py).floor().cast<int>();
-    for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      for (const int x : {x_[i] - 1, x_[i]}) {
-        for (const int y : {y_[i] - 1, y_[i]}) ++At(x, y);
-      }
+    // A conversion rounds toward 0, so the offset keeps the values positive.
+    x_ = (rows_.qx - c * rows_.px + s * rows_.py + offset_).cast<int>();
+    y_ = (rows_.qy - s * rows_.px - c * rows_.py + offset_).cast<int>();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      cells_[i] = static_cast<std::uint32_t>(x_[k] * num_cells_ + y_[k]);
     }
+    for (const std::uint32_t cell : cells_) ++At(cell);
     int least = 3;
     const std::size_t begin = fullest->size();
-    for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      for (const int x : {x_[i] - 1, x_[i]}) {
-        for (const int y : {y_[i] - 1, y_[i]}) {
-          std::uint16_t& votes = At(x, y);
-          if (votes < least) continue;
-          fullest->push_back({votes, step, x, y});
-          votes = 0;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const Cells around = CellsAround(cells_[i]);
+      if (around.sum() < least) continue;
+      const auto k = static_cast<Eigen::Index>(i);
+      const int x = x_[k] - static_cast<int>(offset_);
+      const int y = y_[k] - static_cast<int>(offset_);
+      // The four blocks that the cell is part of.
+      for (const int dx : {0, 1}) {
+        for (const int dy : {0, 1}) {
+          const auto block = around.block<2, 2>(dx, dy);
+          const int votes = block.sum();
+          if (votes < least || !IsFirst(block, 1 - dx, 1 - dy)) continue;
+          fullest->push_back({votes, step, x - 1 + dx, y - 1 + dy});
           if (fullest->size() - begin >= 8 * kNumPerYaw) {
             Keep(begin, fullest);
-            least = fullest->back().votes;
+            if (fullest->size() - begin == kNumPerYaw) {
+              least = fullest->back().votes;
+            }
           }
         }
       }
     }
     Keep(begin, fullest);
+    for (const std::uint32_t cell : cells_) At(cell) = 0;
   }
 
  private:
-  std::uint16_t& At(int x, int y) {
-    const int mask = num_cells_ - 1;
-    return votes_[static_cast<std::size_t>((x & mask) * num_cells_ +
-                                           (y & mask))];
+  using Cells = Eigen::Matrix<int, 3, 3>;
+
+  std::uint16_t& At(std::uint32_t cell) {
+    return votes_[cell & (votes_.size() - 1)];
   }
 
+  // The votes of three by three cells, by their middle.
+  Cells CellsAround(std::uint32_t middle) {
+    const auto n = static_cast<std::uint32_t>(num_cells_);
+    Cells around;
+    around << At(middle - n - 1), At(middle - n), At(middle - n + 1),
+        At(middle - 1), At(middle), At(middle + 1), At(middle + n - 1),
+        At(middle + n), At(middle + n + 1);
+    return around;
+  }
+
+  // Whether the cells of the block before this one are empty. A block is found
+  // by the matches of its first cell only.
+  template <typename Block>
+  static bool IsFirst(const Block& block, int x, int y) {
+    for (int k = 0; k < 2 * x + y; ++k) {
+      if (block(k / 2, k % 2) != 0) return false;
+    }
+    return true;
+  }
+
+  // The fullest, each once: all matches of its first cell found it.
   static void Keep(std::size_t begin, std::vector<Cell>* fullest) {
     const auto first = fullest->begin() + static_cast<std::ptrdiff_t>(begin);
     std::sort(first, fullest->end(), IsBefore);
+    fullest->erase(std::unique(first,
+                               fullest->end(),
+                               [](const Cell& a, const Cell& b) {
+                                 return !IsBefore(a, b);
+                               }),
+                   fullest->end());
     fullest->resize(std::min(fullest->size(), begin + kNumPerYaw));
   }
 
   const Rows& rows_;
   int num_cells_;
+  float offset_;
   Eigen::ArrayXi x_, y_;
-  std::vector<std::uint16_t> votes_;  // y fastest.
+  std::vector<std::uint32_t> cells_;  // Of the matches.
+
+  // Cell x num_cells + y, modulo the size; all 0 between counts.
+  std::vector<std::uint16_t> votes_;
 };
 
-// Leaves out blocks next to a fuller one, in yaw and place, which would be
-// refined to the same pose. `cells` are sorted.
+// Leaves out blocks that are next to a fuller one in yaw and position, because
+// they would be refined to the same pose. `cells` are sorted.
 std::vector<Cell> WithoutNeighbors(const std::vector<Cell>& cells,
                                    int num_yaws,
                                    std::size_t num_wanted) {
@@ -207,16 +253,16 @@ std::vector<Cell> WithoutNeighbors(const std::vector<Cell>& cells,
   return kept;
 }
 
-// One cell, refined: in bounds, from the middles.
+// A refined cell, in noise bounds and relative to the middles.
 struct Refined {
   double yaw = 0.0;
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Index> inliers;  // Of the centered matches.
+  std::vector<Eigen::Index> inliers;  // Columns of the centered matches.
   double ratio = 0.0;                 // (3)
 };
 
-// The offset on which most of the intervals [value - reach, value + reach]
-// overlap: the middle of the place where they do.
+// The middle of the first interval on which the most intervals [value - reach,
+// value + reach] overlap.
 double Stab(const std::vector<std::pair<double, double>>& value_and_reach) {
   std::vector<std::pair<double, int>> ends;
   ends.reserve(2 * value_and_reach.size());
@@ -253,7 +299,17 @@ class Refinement {
                      : 0.5f;
         })) {}
 
-  // Nullopt if the block is empty, or its matches do not determine a yaw.
+  // The inliers and (3) of a pose whose yaw is 0.
+  Refined At(const Eigen::Vector3d& translation) const {
+    Refined refined;
+    refined.translation = translation;
+    Collect(FindNear(1.0, refined), 1.0, &refined);
+    refined.ratio = LogLikelihoodRatio(refined);
+    return refined;
+  }
+
+  // Returns nullopt if fewer than two matches are near, or if they do not
+  // determine a yaw.
   std::optional<Refined> At(double yaw, double x, double y) const {
     Refined refined;
     refined.yaw = yaw;
@@ -271,7 +327,7 @@ class Refinement {
   }
 
  private:
-  // The matches with |e_xy| <= bound, by single precision.
+  // The matches with |e_xy| <= bound, in single precision.
   std::vector<Eigen::Index> FindNear(double bound,
                                      const Refined& refined) const {
     const auto c = static_cast<float>(std::cos(refined.yaw));
@@ -318,7 +374,7 @@ class Refinement {
     }
   }
 
-  // Least squares on the inliers.
+  // Fits the pose to its inliers by least squares.
   bool Fit(Refined* refined) const {
     const auto num = static_cast<Eigen::Index>(refined->inliers.size());
     Points p(3, num), q(3, num);
@@ -334,8 +390,8 @@ class Refinement {
     return true;
   }
 
-  // (2) and (3). A match is an inlier at a share of asin(1 / |p|) / pi of all
-  // yaws, provided that | |q - t| - |p| | <= 1.
+  // Equations (2) and (3). A match is an inlier at a share of asin(1 / |p|) /
+  // pi of all yaws, if | |q - t| - |p| | <= 1.
   double LogLikelihoodRatio(const Refined& refined) const {
     const auto x = static_cast<float>(refined.translation.x());
     const auto y = static_cast<float>(refined.translation.y());
@@ -356,11 +412,11 @@ class Refinement {
 
   const CenteredMatches& matches_;
   const Rows& rows_;
-  const Eigen::ArrayXf reach_;  // Bounds of |e_z|.
-  const Eigen::ArrayXf share_;  // Of yaws, for (2).
+  const Eigen::ArrayXf reach_;  // The bounds of |e_z|.
+  const Eigen::ArrayXf share_;  // The shares of yaws for (2).
 };
 
-// The fullest cells of all yaws that are no neighbors, the fullest first.
+// The fullest cells of all yaws that are not neighbors, the fullest first.
 std::vector<Cell> FindFullest(const CenteredMatches& matches,
                               const Rows& rows,
                               int num_yaws,
@@ -378,7 +434,7 @@ std::vector<Cell> FindFullest(const CenteredMatches& matches,
       num_yaws,
       kYawsPerPiece,
       [&](Eigen::Index begin, Eigen::Index end) {
-        Ballot ballot(rows, num_cells);
+        Ballot ballot(rows, num_cells, extent);
         for (Eigen::Index k = begin; k < end; ++k) {
           ballot.Count(
               static_cast<double>(k) * yaw_step,
@@ -397,7 +453,7 @@ std::vector<Cell> FindFullest(const CenteredMatches& matches,
       static_cast<std::size_t>(kRefinedPerWanted * options.max_num_proposals));
 }
 
-// The most significant that differ, the best first.
+// The most significant poses that differ from each other, the best first.
 std::vector<const Refined*> Separate(
     const std::vector<std::optional<Refined>>& refined,
     const ConsensusSearchOptions& options) {
@@ -424,7 +480,7 @@ std::vector<const Refined*> Separate(
   return kept;
 }
 
-// In the units and frames of the input.
+// The proposal in the units and frames of the input.
 Proposal ProposalFrom(const Refined& refined,
                       const CenteredMatches& matches,
                       double noise_bound) {
@@ -489,6 +545,26 @@ std::vector<Proposal> SearchConsensus(const PointsRef& source,
     proposals.push_back(ProposalFrom(*one, matches, options.noise_bound));
   }
   return proposals;
+}
+
+double ConsensusLogLikelihoodRatio(const PointsRef& source,
+                                   const PointsRef& target,
+                                   const Rigid3& target_from_source,
+                                   const ConsensusSearchOptions& options) {
+  const Eigen::Matrix3d& rotation = target_from_source.rotation;
+  ConsensusSearchOptions turned = options;
+  turned.max_tilt = 0.0;
+  if (options.source_center) {
+    turned.source_center = rotation * *options.source_center;
+  }
+  const CenteredMatches matches = Center(rotation * source, target, turned);
+  if (matches.source.cols() == 0) return 0.0;
+  const Rows rows(matches);
+  const Eigen::Vector3d moved_middle =
+      matches.source_middle + target_from_source.translation;
+  return Refinement(matches, rows, turned)
+      .At((moved_middle - matches.target_middle) / options.noise_bound)
+      .ratio;
 }
 
 }  // namespace quatro

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Comparison of every closed form in a run with its Ceres twin.
+// The comparison of the least-squares closed forms in a run with their Ceres
+// twins (solvers/ceres/ceres_twins.h).
 //
 // CrossChecked<Subproblem> wraps a subproblem of robust/gnc/gnc.h. It returns
-// the closed-form estimates and records the largest difference from those of
-// Ceres, which solves with the same weights on the manifold, started half a
-// radian away.
+// the closed-form estimates, and records their largest difference from those of
+// Ceres, which solves the same problem with the same weights on the manifold,
+// started half a radian away.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_CROSSCHECK_H_
 #define QUATRO_ROBUST_ESTIMATORS_CROSSCHECK_H_
@@ -21,10 +22,9 @@
 
 namespace quatro {
 
-constexpr double kCrosscheckStart = 0.5;  // Start's offset [rad].
+constexpr double kCrosscheckStart = 0.5;  // Offset of the start [rad].
 
-// The difference between the closed form and Ceres [rad], infinite if Ceres
-// fails.
+// The angle between the closed form and Ceres [rad], infinite if Ceres fails.
 double CrosscheckDifference(const QuasiSo3& subproblem,
                             const WeightsRef& weights,
                             const YawEstimate& closed_form);
@@ -58,7 +58,7 @@ class CrossChecked {
     return estimate;
   }
 
-  // The largest difference over all solves so far.
+  // The number of solves so far, and the largest difference.
   const CrosscheckReport& report() const { return report_; }
 
  private:
@@ -66,8 +66,9 @@ class CrossChecked {
   mutable CrosscheckReport report_;
 };
 
-// Compares the joint yaw and translation, and the full pose if the matches
-// constrain it, on the given inliers. Adds to *report.
+// Compares the joint yaw and translation and the full pose on the given
+// inliers, as far as the inliers constrain them. Adds to *report, which it
+// creates if needed.
 void CrosscheckPose(const PointsRef& source,
                     const PointsRef& target,
                     std::optional<CrosscheckReport>* report);

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The stages that Quatro and TEASER++ share. Both decouple the pose: they prune
-// the matches to a consistent set, estimate the rotation from the TIMs of that
-// set by GNC, and then the translation with the rotation known.
+// The stages that Quatro and TEASER++ share. Both decouple the pose in
+//
+//   q_i = R p_i + t + noise.
+//
+// They prune the matches to a consistent set, estimate R from the TIMs of that
+// set by GNC, and then t with R known.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_DECOUPLED_H_
 #define QUATRO_ROBUST_ESTIMATORS_DECOUPLED_H_
@@ -24,7 +27,8 @@
 
 namespace quatro {
 
-// The consistent matches, and the pairs of them that give TIMs.
+// The consistent matches, and the pairs among them whose differences are the
+// TIMs.
 struct ConsistentSet {
   std::vector<Eigen::Index> columns;  // Distinct matches, ascending.
   Points source;
@@ -32,13 +36,15 @@ struct ConsistentSet {
   std::vector<TimPair> tims;
 };
 
-// Prunes the matches. Sets the summary's consistent matches and their number.
+// Prunes the matches. Sets the consistent matches of the summary and their
+// number.
 ConsistentSet PruneMatches(const DistinctMatches& matches,
                            const PruningOptions& options,
                            int num_threads,
                            PoseSummary* summary);
 
-// Chooses the pairs of `set` that give TIMs. Sets the summary's number of TIMs.
+// Chooses the pairs of `set` for the TIMs. Sets the number of TIMs of the
+// summary.
 void ChooseTims(TimLayout layout,
                 Eigen::Index num_random,
                 std::uint64_t seed,
@@ -49,8 +55,8 @@ void ChooseTims(TimLayout layout,
 // example "a heading needs two consistent matches".
 void EndInsufficient(const std::string& needs, PoseSummary* summary);
 
-// Solves the rotation by GNC with this surrogate, compared with Ceres at each
-// step if `crosscheck` is set.
+// Solves the rotation by GNC with this surrogate. If `crosscheck` is set, every
+// step is compared with Ceres.
 template <typename Subproblem>
 GncSummary<typename Subproblem::Estimate> SolveRotation(
     const Subproblem& subproblem,
@@ -65,15 +71,15 @@ GncSummary<typename Subproblem::Estimate> SolveRotation(
   return gnc;
 }
 
-// Sets the weight of each consistent match from those of the TIMs. Empty
-// weights set nothing.
+// Sets the weight of each consistent match from the weights of its TIMs. Sets
+// nothing if there are no weights.
 void WeighMatches(const DistinctMatches& matches,
                   const ConsistentSet& set,
                   const Eigen::VectorXd& tim_weights,
                   PoseSummary* summary);
 
-// The pose with this rotation, and the columns of the distinct matches that are
-// inliers of its translation.
+// Returns the pose with this rotation, and the columns of the distinct matches
+// that are inliers of its translation in *inliers. The set must not be empty.
 Rigid3 AddTranslation(const ConsistentSet& set,
                       const Eigen::Matrix3d& rotation,
                       double noise_bound,

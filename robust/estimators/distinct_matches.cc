@@ -25,7 +25,7 @@ std::uint64_t Hash(const Eigen::Vector3d& point) {
   return hash;
 }
 
-// Takes the columns in the order of `order`.
+// Uses only the columns in `order`.
 DistinctMatches FindDistinct(const PointsRef& source,
                              const PointsRef& target,
                              std::vector<Eigen::Index> order) {

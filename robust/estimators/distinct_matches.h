@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // Distinct matches in an order that does not depend on the order of the input:
-// copies of one match are merged, and the rest is sorted by a hash of the
-// coordinates. Results computed from them depend on neither the order nor the
-// repetition of the input. Neighbors in this order are usually not neighbors in
-// space, so differences between them are long.
+// copies of a match (p, q) are merged, and the matches are sorted by a hash of
+// their coordinates. So results that are computed from them depend neither on
+// the order nor on the repetition of the input. Neighbors in this order are
+// usually not neighbors in space, so differences between them are long.
 //
 // The hash is the same for (p, q) and (q, p), so swapping source and target
 // keeps the order.
@@ -27,12 +27,12 @@ struct DistinctMatches {
   std::vector<std::vector<Eigen::Index>> columns;
 };
 
-// Column i of `source` is matched with column i of `target`.
+// Column i of `source` is matched with column i of `target` [m].
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target);
 
-// Leaves out the matches whose coordinates a double cannot resolve
-// (robust/graph/far_matches.h).
+// Also leaves out the matches whose coordinates a double cannot resolve to the
+// noise bound [m] (robust/graph/far_matches.h).
 DistinctMatches FindDistinctMatches(const PointsRef& source,
                                     const PointsRef& target,
                                     double noise_bound);
@@ -42,8 +42,8 @@ DistinctMatches FindDistinctMatches(const PointsRef& source,
 std::vector<Eigen::Index> InputColumns(
     const DistinctMatches& matches, const std::vector<Eigen::Index>& selected);
 
-// The values of the given distinct matches, one for each entry of
-// InputColumns().
+// The values of the given distinct matches, repeated for each copy, in the
+// order of InputColumns().
 std::vector<double> InputValues(const DistinctMatches& matches,
                                 const std::vector<Eigen::Index>& selected,
                                 const std::vector<double>& values);

@@ -26,7 +26,8 @@ namespace {
 
 constexpr int kFgrNeeds = 3;
 
-// Matches that one thread sums at a time. The sums are added in order.
+// The number of matches that one thread sums at a time. The sums are added in
+// order.
 constexpr Eigen::Index kNumPerPiece = 4096;
 
 // Sums over the matches for (3), with x = T p and e = q - x.
@@ -54,13 +55,14 @@ Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
   return cross;
 }
 
-// Matches about their means and in units of D, without what is far from the
-// rest.
+// The matches relative to their means and in units of D, without those that are
+// far from the others.
 struct ScaledMatches {
   std::vector<Eigen::Index> columns;  // Distinct matches.
   Points source;
   Points target;
-  // Eigen adds rows in an order that depends on the alignment of the result.
+  // Aligned, because Eigen adds rows in an order that depends on the alignment
+  // of the result.
   alignas(16) Eigen::Vector3d source_mean;
   alignas(16) Eigen::Vector3d target_mean;
   double extent = 1.0;  // D [m].
@@ -99,7 +101,7 @@ Rigid3 Iterate(const ScaledMatches& matches,
         matches.source, matches.target, Weights::Ones(matches.source.cols()));
     if (plain) pose = plain->target_from_source;
   }
-  // In units of delta^2, so that the schedule ends at 1.
+  // mu is in units of delta^2, so that the schedule ends at 1.
   const double delta = matches.delta;
   double mu = std::max(1.0, 1.0 / (delta * delta));
   FgrNormalEquations equations;
@@ -127,7 +129,7 @@ Rigid3 Iterate(const ScaledMatches& matches,
   return pose;
 }
 
-// Columns of the distinct matches.
+// Returns columns of the distinct matches.
 std::vector<Eigen::Index> FindInliers(const ScaledMatches& matches,
                                       const Rigid3& pose) {
   const double limit = matches.delta * matches.delta;

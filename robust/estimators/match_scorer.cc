@@ -16,7 +16,7 @@ namespace {
 constexpr Eigen::Index kLanes = 8;
 constexpr Eigen::Index kFields = 7;
 constexpr Eigen::Index kBlockSize = kLanes * kFields;
-// Blocks between two comparisons with the limit.
+// The number of blocks between two comparisons with the limit.
 constexpr Eigen::Index kStride = 8;
 
 // Sums the costs of eight matches at a time, one in each lane. `motion` is R by

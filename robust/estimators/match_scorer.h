@@ -4,9 +4,9 @@
 //
 //   f(R, t) = sum_i min( |q_i - R p_i - t|^2 / b^2, 1 ),                   (1)
 //
-// which is the cost of robust/estimators/consensus.h, optimized for speed: it
-// evaluates several matches at a time and stops once the cost exceeds a given
-// limit. b is a radius.
+// as in robust/estimators/consensus.h, but optimized for speed: several matches
+// are evaluated at a time, and the sum stops once it exceeds a given limit. b
+// is a radius.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_MATCH_SCORER_H_
 #define QUATRO_ROBUST_ESTIMATORS_MATCH_SCORER_H_
@@ -27,9 +27,9 @@ class MatchScorer {
               const PointsRef& target,
               double noise_bound);
 
-  // Returns (1) if it is at most `limit`, else some number above `limit`. A
-  // match whose residual is NaN costs 1. The result is the same bit for bit on
-  // every machine.
+  // Returns (1) if it is at most `limit`, and otherwise some number above
+  // `limit`. A match whose residual is NaN costs 1. The result is the same, bit
+  // for bit, on every machine.
   double Cost(const Rigid3& target_from_source, double limit) const;
 
   // The columns with |q_i - R p_i - t| <= factor * b, in ascending order.

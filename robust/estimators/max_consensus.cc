@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kNumFirstIntervals = 64;
 
-// Numbers on a line, of which ranges are raised and lowered; knows the largest.
+// An array of counts as a segment tree: adds to ranges and finds the maximum.
 class RangeCounter {
  public:
   explicit RangeCounter(std::size_t size) {
@@ -31,7 +31,7 @@ class RangeCounter {
 
   int Most() const { return most_[1]; }
 
-  // A place where the number is the largest.
+  // A place where the count is the largest.
   std::size_t Where() const {
     std::size_t node = 1;
     while (node < size_) {
@@ -64,14 +64,14 @@ class RangeCounter {
   std::vector<int> added_;
 };
 
-// A point in the largest number of squares.
+// A point, and the number of squares that contain it.
 struct Depth {
   int num = 0;
   Eigen::Vector2d point = Eigen::Vector2d::Zero();
 };
 
-// Squares are closed: one that begins where another ends shares a point with
-// it.
+// The point in the largest number of squares, by a sweep along x. Squares are
+// closed: one that begins where another ends shares a point with it.
 Depth DeepestPoint(const Eigen::Matrix2Xd& centers,
                    const Eigen::ArrayXd& half_widths) {
   struct Event {
@@ -117,7 +117,7 @@ Depth DeepestPoint(const Eigen::Matrix2Xd& centers,
 
 struct Interval {
   double center;
-  double width;  // To either side.
+  double width;  // To each side.
   int bound;
 
   bool operator<(const Interval& other) const {
@@ -146,7 +146,8 @@ MaxConsensus FindMaxConsensus(const PointsRef& source,
   MaxConsensus best;
   const Eigen::Index n = source.cols();
   if (n == 0) return best;
-  // About the middle of the source, from where points are nearest.
+  // Coordinates are relative to the mean of the source, so that the |p_i| are
+  // small.
   const Eigen::Vector2d middle = source.topRows<2>().rowwise().mean();
   const Eigen::Matrix2Xd p = source.topRows<2>().colwise() - middle;
   const Eigen::Matrix2Xd q = target.topRows<2>();

@@ -5,13 +5,13 @@
 //   max over yaw, t of  #{ i : |e_i,x| <= b, |e_i,y| <= b },               (1)
 //   e_i = q_i - R_z(yaw) p_i - t.
 //
-// Branch and bound over the yaw. While the yaw is within w of a center, the
+// by branch and bound over the yaw. While the yaw is within w of a center, the
 // translation of match i is within b + 2 |p_i| sin(w / 2) of that at the
-// center, on each axis. So the largest number of squares of that size that
-// share a point bounds (1) on the interval. It is found by a sweep in
-// O(N log N). At the center, with squares of size b, it is (1) itself.
+// center, on each axis. So the largest number of squares of this half-width
+// that share a point bounds (1) on the interval. It is found by a sweep in O(N
+// log N). With half-width b, it is (1) at the center.
 //
-// Heights do not count. This is an oracle for
+// Heights are ignored. This is an oracle for
 // robust/estimators/consensus_search.h, which is a hundred times faster.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_MAX_CONSENSUS_H_
@@ -24,11 +24,11 @@
 
 namespace quatro {
 
-// How far the search goes.
+// The noise bound, and when the search stops.
 struct MaxConsensusOptions {
-  double noise_bound = 0.3;  // b [m]
+  double noise_bound = 0.3;  // b, half the edge of a square [m].
 
-  // Narrower intervals of the yaw are not divided [rad].
+  // Intervals of the yaw with at most this half-width are not divided [rad].
   double min_width = 1e-5;
 
   int max_num_intervals = 100'000;
@@ -37,20 +37,20 @@ struct MaxConsensusOptions {
   bool IsValid(std::string* error) const;
 };
 
-// A maximum of (1), and how certain it is one.
+// The largest consensus found, and an upper bound.
 struct MaxConsensus {
   double yaw = 0.0;                                       // [rad]
   Eigen::Vector2d translation = Eigen::Vector2d::Zero();  // [m]
-  Eigen::Index num_inliers = 0;                           // (1) there.
-  Eigen::Index upper_bound = 0;                           // On (1) anywhere.
-  int num_intervals = 0;                                  // That were bounded.
+  Eigen::Index num_inliers = 0;                           // (1) at this pose.
+  Eigen::Index upper_bound = 0;  // Bounds (1) over all poses.
+  int num_intervals = 0;         // Intervals examined.
 
   // No other pose has more inliers.
   bool IsOptimal() const { return upper_bound == num_inliers; }
 };
 
-// Column i of `source` is matched with column i of `target` [m]; all finite.
-// Without matches there are no inliers.
+// Column i of `source` is matched with column i of `target` [m]; all must be
+// finite. Without matches all fields are zero.
 MaxConsensus FindMaxConsensus(const PointsRef& source,
                               const PointsRef& target,
                               const MaxConsensusOptions& options);

@@ -84,8 +84,7 @@ std::array<Eigen::Index, 3> DrawSample(MinimalSample sample,
     return static_cast<Eigen::Index>(
         random->Below(static_cast<std::uint64_t>(k)));
   };
-  // Draws ranks among the remaining columns and skips the columns already
-  // taken.
+  // Draws ranks among the columns that are left, and skips those already taken.
   std::array<Eigen::Index, 3> columns = {below(n), -1, -1};
   if (sample == MinimalSample::kPointAndNormal) return columns;
   columns[1] = below(n - 1);

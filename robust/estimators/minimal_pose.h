@@ -19,11 +19,10 @@
 //   s |p_i - p_j| <= |q_i - q_j|  and  s |q_i - q_j| <= |p_i - p_j|,       (2)
 //
 // which rejects some short sides of inliers and accepts some long sides that
-// (1) excludes. On real scans the former helps, because short sides constrain
-// the rotation poorly, and so does the latter, because noise bounds are
-// guesses; (1) rejects more and takes less time. Yaw-only samples must pass for
-// their planar lengths as well, and for heights up to a tilt
-// (robust/graph/consistency_test.h).
+// (1) rejects. On real scans, both help: short sides constrain the rotation
+// poorly, and noise bounds are guesses. (1) rejects more samples and takes less
+// time. Yaw-only samples must also pass the test with their planar lengths, and
+// a test of their heights up to a tilt (robust/graph/consistency_test.h).
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_MINIMAL_POSE_H_
 #define QUATRO_ROBUST_ESTIMATORS_MINIMAL_POSE_H_
@@ -59,12 +58,12 @@ struct MinimalPoseOptions {
   EdgeTest edge_test = EdgeTest::kRatio;
   double edge_similarity = 0.9;  // s of (2), in (0, 1]; Open3D's default.
 
-  // For yaw-only samples: largest tilt between the scans, which changes heights
-  // [rad].
+  // For yaw-only samples: the largest tilt between the scans, which changes
+  // heights [rad].
   double max_tilt = 0.035;
 
   // For kPointAndNormal: a sample is rejected if the horizontal part of a
-  // normal is shorter than min_normal_xy, because its heading is uncertain, or
+  // normal is shorter than min_normal_xy, because its azimuth is uncertain, or
   // if the z components of the normals differ by more than
   // max_normal_z_difference.
   double min_normal_xy = 0.5;
@@ -83,13 +82,13 @@ struct MatchedNormals {
 };
 
 // Draws as many distinct columns in [0, n) as the sample needs; n must not be
-// smaller. The remaining entries are -1.
+// smaller than that. The remaining entries are -1.
 std::array<Eigen::Index, 3> DrawSample(MinimalSample sample,
                                        Eigen::Index n,
                                        Random* random);
 
-// Returns nullopt if the sample fails its tests or does not determine a pose.
-// Only kPointAndNormal needs `normals`.
+// The pose of the matches in `columns` [m]. Returns nullopt if the sample fails
+// its tests or does not determine a pose. Only kPointAndNormal needs `normals`.
 std::optional<Rigid3> EstimateMinimalPose(
     const PointsRef& source,
     const PointsRef& target,

@@ -68,7 +68,7 @@ std::optional<Rigid3> SolveSo3(const PointsRef& source,
   return Rigid3{rotation, translation->target_from_source};
 }
 
-// Standard deviation of the rotation about its least certain axis [rad].
+// The standard deviation of the rotation about its least certain axis [rad].
 double RotationStd(const PointsRef& source,
                    const PointsRef& target,
                    const Rigid3& pose,
@@ -86,8 +86,8 @@ double RotationStd(const PointsRef& source,
   const double least =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(half_curvature)
           .eigenvalues()[0];
-  // A few exact matches have zero residuals, so assume a standard deviation of
-  // at least a tenth of the bound.
+  // A few exact matches have zero residuals, so the standard deviation is
+  // assumed to be at least a tenth of the bound.
   const double floor = 0.01 * noise_bound * noise_bound;
   return std::sqrt(std::max(variance, floor) / std::max(0.0, least));
 }
@@ -123,7 +123,7 @@ PolishSummary Polish(const PointsRef& source,
   if (const auto so3 = SolveSo3(source, target, consistent, bound)) {
     starts.push_back(*so3);
   }
-  // Records why a candidate was rejected, unless another one was accepted.
+  // Records why a candidate was rejected, unless another one has been accepted.
   const auto refuse = [&](const char* why) {
     if (!summary.is_polished) summary.message = why;
   };

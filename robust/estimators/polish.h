@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// From a yaw-only pose to the full pose. Roll and pitch of real scans differ by
-// a degree or two, which are errors of a yaw-only pose.
+// The polish: refines a yaw-only pose to a full pose. Roll and pitch of real
+// scans differ by a degree or two, which a yaw-only pose cannot represent.
 //
 // Candidates are refined in SE(3) on their inliers,
 //
@@ -10,14 +10,19 @@
 //
 // by alternating I and the closed form, while b shrinks to the noise bound, a
 // radius. The first candidate starts from the yaw-only pose. The second starts
-// from a rotation in SO(3) by graduated non-convexity on the consistent set; it
-// reaches tilts that the first cannot. The candidate with the lowest truncated
-// cost (robust/estimators/consensus.h) is accepted only if its cost is lower
-// than that of the yaw-only pose and the inliers constrain its rotation: the
-// standard deviation about the least certain axis, s / sqrt(smallest eigenvalue
-// of H / 2), must not exceed max_rotation_std. Here H is the curvature of (1)
-// over rotations and s the standard deviation of the residuals. Otherwise the
-// yaw-only pose is kept.
+// from a rotation in SO(3) by graduated non-convexity on the consistent set,
+// which reaches tilts that the first cannot. A candidate is acceptable if
+//
+//   - its truncated cost (robust/estimators/consensus.h) is below that of the
+//     yaw-only pose;
+//   - its rotation differs from the yaw-only one by at most max_tilt;
+//   - its inliers constrain the rotation: the standard deviation about the
+//     least certain axis, s / sqrt(smallest eigenvalue of H / 2), is at most
+//     max_rotation_std. H is the curvature of (1) over rotations, and s the
+//     standard deviation of the residuals, but at least a tenth of the bound.
+//
+// The acceptable candidate with the lowest cost replaces the yaw-only pose. If
+// there is none, the yaw-only pose is kept.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_POLISH_H_
 #define QUATRO_ROBUST_ESTIMATORS_POLISH_H_
@@ -50,7 +55,7 @@ struct PolishSummary {
   Rigid3 target_from_source;
   bool is_polished = false;
 
-  // About the least certain axis of the polished pose [rad].
+  // About the least certain axis of the polished pose [rad]; 0 if not polished.
   double rotation_std = 0.0;
 
   std::string message;  // Why it was not polished, or "polished".

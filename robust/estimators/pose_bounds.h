@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// A prior on the pose: hard bounds about a guess (R0, t0). An answer (R, t) of
-// target_from_source must satisfy
+// A prior on the pose: hard bounds about a guess (R0, t0) of
+// target_from_source. A pose (R, t) must satisfy
 //
 //   R R0^T = R_up(yaw) S(tilt),   |t - t0| <= max_translation,
 //                                 |yaw| <= max_yaw,  tilt <= max_tilt,    (1)
 //
-// where R_up turns about the vertical and S about a horizontal axis, which
+// where R_up rotates about the vertical and S about a horizontal axis, which
 // determines both. It follows from (1) that a match (p, q) can be an inlier
 // only if q is close to the arc that R0 p describes about the vertical,
 //
 //   min { |R_up(a) R0 p + t0 - q| : |a| <= max_yaw }
 //     <= max_translation + sqrt(3) noise_bound + 2 sin(max_tilt/2) |p|,   (2)
 //
-// because an inlier is within the noise bound on each axis and a tilt moves a
+// because an inlier is within the noise bound on each axis, and a tilt moves a
 // point at distance |p| by no more than the last term. Matches that violate (2)
 // are removed before a solver sees them (robust/estimators/bound_solver.h), so
 // that it cannot prefer a larger consensus elsewhere.
@@ -32,7 +32,7 @@
 
 namespace quatro {
 
-// The defaults bound nothing.
+// A guess and its bounds. The defaults allow every pose.
 struct PoseBounds {
   Rigid3 guess;  // target_from_source, (R0, t0).
   double max_translation = std::numeric_limits<double>::infinity();  // [m]
@@ -42,27 +42,28 @@ struct PoseBounds {
   // of the bounds above.
   double max_tilt = 0.0873;
 
-  // Which way is up in the target, a unit vector. Register() and
-  // RegisterMatches() take the vertical of their InsOptions; do not set this.
+  // The vertical in the target frame, a unit vector that points up. Leave it at
+  // its default for Register() and RegisterMatches(), which use the vertical of
+  // InsOptions.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
 
-  // Whether a translation or a yaw is ruled out.
+  // Whether the translation or the yaw is bounded.
   bool IsActive() const {
     return std::isfinite(max_translation) || max_yaw < M_PI;
   }
 
-  // (1), with a tolerance of the noise bound [m] and of 0.01 rad. True if the
-  // bounds are not active.
+  // Whether the pose satisfies (1), with a tolerance of the noise bound [m] and
+  // 0.01 rad. True if the bounds are not active.
   bool Contain(const Rigid3& target_from_source, double noise_bound) const;
 
   // The left side of (2) [m].
   double DistanceToArc(const Eigen::Vector3d& source,
                        const Eigen::Vector3d& target) const;
 
-  // (2). True if the bounds are not active.
+  // Whether the match satisfies (2). True if the bounds are not active.
   bool CanBeInlier(const Eigen::Vector3d& source,
                    const Eigen::Vector3d& target,
                    double noise_bound) const;
@@ -72,20 +73,23 @@ struct PoseBounds {
                                             const PointsRef& target,
                                             double noise_bound) const;
 
-  // These bounds, on frame_from_source = frame_from_target *
+  // The equivalent bounds on frame_from_source = frame_from_target *
   // target_from_source.
   PoseBounds InFrame(const Rigid3& frame_from_target) const;
 
+  // How far the pose is from the guess, and how far it may be. For example
   // "34.2 m, 12 deg of yaw and 1 deg of tilt from the guess, at most 5 m, 20
   // deg and 5 deg are allowed".
   std::string Describe(const Rigid3& target_from_source) const;
 };
 
-// R = R_up(yaw) S(tilt), as in (1).
+// The angles of the factors in R = R_up(yaw) S(tilt), as in (1).
 struct YawAndTilt {
   double yaw = 0.0;   // [rad], in [-pi, pi].
   double tilt = 0.0;  // [rad], in [0, pi].
 };
+
+// Decomposes a rotation, for the unit vector `up`.
 YawAndTilt Decompose(const Eigen::Matrix3d& rotation,
                      const Eigen::Vector3d& up);
 

@@ -21,14 +21,14 @@ namespace quatro {
 
 // Why an estimator ended.
 enum class PoseTermination {
-  kInvalidInput,  // Options out of range or points that are not finite.
-  kInsufficient,  // Fewer consistent matches than the estimator needs.
+  kInvalidInput,  // Bad options, unequal numbers, or points not finite.
+  kInsufficient,  // Too few consistent matches, or no pose within the bounds.
   kDegenerate,    // The consistent matches do not constrain the pose.
   kSolved,
 };
 
-// How far the GNC yaw is from the global optimum of the truncated least squares
-// over the yaw of the TIMs (solvers/closed_form/exact_yaw.h).
+// How far the cost of the GNC yaw is above the global optimum of truncated
+// least squares over the yaw of the TIMs (solvers/closed_form/exact_yaw.h).
 struct YawCertificate {
   std::optional<double> gnc_cost;  // Not set if GNC failed.
   double optimal_cost = 0.0;
@@ -54,15 +54,16 @@ struct PoseSummary {
   PoseTermination termination = PoseTermination::kInvalidInput;
   std::string message = "no estimator was called";
 
-  // Set iff termination is kSolved. This does not say whether the pose is
-  // correct (robust/verdict/verdict.h does).
+  // Set iff the termination is kSolved. This does not say whether the pose is
+  // correct (see robust/verdict/verdict.h).
   std::optional<Rigid3> target_from_source;
 
   // The pose before the polish in SE(3), if it was polished.
   std::optional<Rigid3> unpolished_target_from_source;
 
-  // Which degrees of freedom were estimated, and what comes from an INS: the
-  // vertical (kYawTranslation), or a prior in addition to the matches (kRigid).
+  // The degrees of freedom that were estimated, and the vertical if an INS
+  // gives it: as an assumption (kYawTranslation), or as a prior in addition to
+  // the matches (kRigid).
   PoseModel model = PoseModel::kRigid;
   std::optional<VerticalPrior> vertical;
 
@@ -70,30 +71,30 @@ struct PoseSummary {
   // estimator.
   std::optional<PoseCovariance> covariance;
 
-  double scale = 1.0;  // Target = scale * source; 1 unless estimated.
+  double scale = 1.0;  // Target length over source length, or 1.
 
   // The number of consistent matches that this estimator needs.
   int num_needed = 0;
 
-  // Columns of the input matches, in ascending order. Copies of one match are
+  // Columns of the input matches, in ascending order. The copies of a match are
   // all included or all excluded. The counts below count them once.
   std::vector<Eigen::Index> consistent;           // After pruning.
   std::vector<Eigen::Index> translation_inliers;  // Within the noise bound.
 
-  // For each of `consistent`, the largest weight in [0, 1] of the TIMs that it
-  // is part of; empty if the estimator has no weights.
+  // For each match in `consistent`, the largest weight in [0, 1] of the TIMs
+  // that it is part of. Empty if the estimator has no weights.
   std::vector<double> match_weights;
 
   Eigen::Index num_matches = 0;
   Eigen::Index num_consistent = 0;
   Eigen::Index num_tims = 0;
-  Eigen::Index num_rotation_inliers = 0;  // TIMs within their bound.
+  Eigen::Index num_rotation_inliers = 0;  // TIMs, or matches if there are none.
   Eigen::Index num_translation_inliers = 0;
 
   std::optional<YawCertificate> certificate;
   std::optional<CrosscheckReport> crosscheck;
   std::vector<StageTime> stage_times;
-  std::vector<StageNote> notes;  // Ordered by stage; some have none.
+  std::vector<StageNote> notes;  // In the order of the stages.
 
   bool IsUsable() const { return target_from_source.has_value(); }
 
@@ -106,8 +107,8 @@ struct PoseSummary {
   }
 };
 
-// Any estimator, with its options bound. The columns in its summary must be in
-// [0, N) for N matches, and in ascending order.
+// Any estimator together with its options. The columns in its summary must be
+// in [0, N) for N matches, and in ascending order.
 using PoseSolver = std::function<PoseSummary(const PointsRef& source,
                                              const PointsRef& target)>;
 

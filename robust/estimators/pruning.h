@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// Pruning: the consistency graph of the matches, and a large set of mutually
-// consistent matches in it.
+// Pruning: the consistency graph of the matches,
+//
+//   edge (i, j)  iff  matches i and j are consistent
+//                     (robust/graph/consistency_test.h),
+//
+// and a large set of mutually consistent matches in it.
 
 #ifndef QUATRO_ROBUST_ESTIMATORS_PRUNING_H_
 #define QUATRO_ROBUST_ESTIMATORS_PRUNING_H_
@@ -19,7 +23,7 @@ namespace quatro {
 enum class Pruning {
   kCliqueHeuristic,  // The paper's MCIS heuristic.
   kExactClique,      // Branch and bound with a time limit.
-  kMaxCore,
+  kMaxCore,          // The vertices with the largest core number.
   kNone,
 };
 
@@ -34,7 +38,7 @@ struct PruningOptions {
 };
 
 // Returns columns of `matches` in ascending order, and appends the times of the
-// stages.
+// stages. Empty if there are no matches.
 std::vector<Eigen::Index> FindConsistent(const DistinctMatches& matches,
                                          const PruningOptions& options,
                                          int num_threads,

@@ -81,8 +81,8 @@ std::optional<double> FindYaw(const QuasiSo3& rotation,
     const auto is_inlier =
         (rotation.SquaredResiduals(estimate).array() <= 1.0).eval();
     summary->num_rotation_inliers = is_inlier.count();
-    // A TIM that is an inlier under any yaw does not constrain the yaw, for
-    // example one between points of a pole.
+    // A TIM that is an inlier at any yaw does not constrain the yaw. An example
+    // is a TIM between points of a pole.
     const auto is_short = (rotation.source.topRows<2>().colwise().norm() +
                            rotation.target.topRows<2>().colwise().norm())
                               .transpose()
@@ -92,8 +92,8 @@ std::optional<double> FindYaw(const QuasiSo3& rotation,
   return yaw;
 }
 
-// The weight of each TIM: that of GNC, or for the exact yaw 1 for inliers and 0
-// for outliers. Empty without a yaw.
+// The weight of each TIM: that of GNC, or, if the exact yaw was chosen, 1 for
+// inliers and 0 for outliers. Empty if the exact yaw was then rejected.
 Eigen::VectorXd TimWeights(const QuasiSo3& rotation,
                            const QuatroSummary& summary,
                            const std::optional<double>& yaw) {
@@ -115,7 +115,7 @@ std::string NoteMove(const Rigid3& before, const Rigid3& after) {
 }
 
 // Recovers the translation and polishes the pose, as far as the options ask for
-// it. Returns whether the inliers have to be found again.
+// it. Returns whether the inliers must be found again.
 bool ImprovePose(const DistinctMatches& matches,
                  const ConsistentSet& set,
                  const QuatroOptions& options,

@@ -7,18 +7,20 @@
 //
 // in four stages:
 //
-//   matches -> largest consistent set (robust/graph/max_clique.h)
+//   matches -> a large consistent set (robust/graph/max_clique.h)
 //           -> differences of points (robust/estimators/tims.h)
 //           -> yaw by graduated non-convexity (robust/gnc/gnc.h)
 //           -> translation axis by axis (solvers/closed_form/translation.h)
 //
 // and three optional stages that the paper does not have: the exact yaw in
 // addition to the GNC yaw (solvers/closed_form/exact_yaw.h), the translation
-// re-estimated from all matches (robust/estimators/recovery.h), and the pose
+// estimated again from all matches (robust/estimators/recovery.h), and the pose
 // refined in SE(3) on the inliers (robust/estimators/polish.h).
 //
-// One difference, and therefore two consistent matches, determines a yaw. Roll
-// and pitch are zero unless the polish estimates them.
+// One difference, and therefore two consistent matches, determines a yaw. There
+// is no pose if fewer matches are consistent, or if they are all at one place
+// or on a vertical line. Roll and pitch are zero unless the polish estimates
+// them.
 //
 // The result depends on the set of matches but not on their order or
 // repetition, bit for bit.
@@ -54,7 +56,7 @@ enum class YawSolver {
 // Options of all stages; the defaults are those of the preset kitti.
 struct QuatroOptions {
   // Largest error of an inlier on each axis of the target frame (half the edge
-  // of a box) [m]. The polish uses it as a radius.
+  // of a box) [m]. The recovery and the polish also use it as a radius.
   double noise_bound = 0.3;
 
   // The bound of a TIM, a radius in the plane, is tim_bound_factor *
@@ -62,8 +64,8 @@ struct QuatroOptions {
   // uses 1.
   double tim_bound_factor = 2.0;
 
-  // Two matches are consistent if their distances differ by at most 2 *
-  // noise_bound.
+  // Two matches are consistent if the lengths that the test compares differ by
+  // at most 2 * noise_bound.
   ConsistencyTest consistency_test = ConsistencyTest::kLength;
   double max_tilt = 0.035;  // For ConsistencyTest::kPlanarAndHeight [rad].
 
@@ -82,7 +84,7 @@ struct QuatroOptions {
   bool replace_missed_optimum = true;
   double certificate_tolerance = 1e-6;
 
-  // Re-estimate the translation from all matches
+  // Estimate the translation again from all matches
   // (robust/estimators/recovery.h).
   bool recover_translation = true;
 
@@ -95,11 +97,11 @@ struct QuatroOptions {
   double polish_max_rotation_std = 0.01;  // [rad]
 
   // Also solve every weighted subproblem by Ceres and report the largest
-  // difference. Slow.
+  // difference. This is slow.
   bool crosscheck = false;
 
   std::uint64_t seed = 0;
-  int num_threads = 1;  // 0: all cores. Never changes the answer.
+  int num_threads = 1;  // 0: all cores. Does not change the result.
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -111,7 +113,7 @@ struct QuatroSummary : PoseSummary {
   GncSummary<YawEstimate> gnc;
 
   double yaw = 0.0;           // Before the polish [rad].
-  bool is_yaw_exact = false;  // The yaw is the exact one, not that of gnc.
+  bool is_yaw_exact = false;  // The yaw is the exact yaw, not that of gnc.
 };
 
 // Column i of `source` is matched with column i of `target` [m].

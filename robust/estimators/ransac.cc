@@ -25,18 +25,18 @@ namespace quatro {
 namespace {
 
 // The number of samples between two updates of the best pose doubles from the
-// first to the second value. It changes the time, never the result.
+// first to the second value. It changes the time but not the result.
 constexpr std::int64_t kFirstBatch = 64;
 constexpr std::int64_t kLargestBatch = 4096;
 
-// Bounds of a refit, in units of the noise bound, and the largest number of
-// refits with the noise bound itself.
+// The bounds of the refits, in noise bounds, and the largest number of refits
+// with the noise bound itself.
 constexpr double kShrinkingBounds[] = {3.0, 2.0, 1.5};
 constexpr int kMaxRefits = 10;
 
-// Matches about the means of those that are near
-// (robust/graph/far_matches.h), so that coordinates far from the origin
-// keep their digits.
+// The matches relative to the means of those that are near
+// (robust/graph/far_matches.h), so that coordinates far from the origin keep
+// their digits.
 struct Problem {
   DistinctMatches matches;
   std::optional<MatchedNormals> normals;
@@ -50,8 +50,9 @@ struct Problem {
   }
 };
 
-// The normals of the distinct matches. If copies of one match have different
-// normals, the lexicographically smallest are used, whatever the input order.
+// The normals of the distinct matches. If copies of a match have different
+// normals, the lexicographically smallest ones are used, so that the input
+// order does not matter.
 MatchedNormals DistinctNormals(const DistinctMatches& matches,
                                const MatchedNormals& normals) {
   const auto is_less = [&](Eigen::Index i, Eigen::Index j) {
@@ -317,7 +318,7 @@ RansacSummary SolveRansac(const PointsRef& source,
   summary.consistent = InputColumns(problem.matches, inliers);
   summary.stage_times.push_back({"ransac", stopwatch.Lap()});
   const bool are_too_few = summary.num_consistent < num_needed;
-  // No sample of such matches constrains a pose.
+  // If all matches are on a line, no sample constrains a pose.
   const bool are_all_alike =
       are_too_few && summary.num_matches >= num_needed &&
       !ConstrainPose(problem, problem.near, options.minimal);

@@ -39,7 +39,8 @@ Rigid3 RecoverTranslation(const PointsRef& source,
     return EstimateConsensus(
         values, Eigen::VectorXd::Constant(values.size(), noise_bound));
   };
-  // Each axis uses the inliers of the previous axes.
+  // The indices whose offset on the axis is within the noise bound of the
+  // value.
   const auto near =
       [&](int axis, double value, const std::vector<Eigen::Index>& indices) {
         std::vector<Eigen::Index> kept;

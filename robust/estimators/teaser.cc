@@ -21,9 +21,10 @@ namespace {
 
 constexpr int kTeaserNeeds = 3;
 
-// The ratio of lengths that most differences agree on: each of length |a| holds
-// it to within 2 noise bounds over |a|. Without what is far from the rest,
-// whose bounds would drown the others.
+// The ratio of lengths that is consistent with the most differences. A
+// difference of length |a| measures it up to 2 noise bounds / |a|. Matches far
+// from the others are left out, because the weights of their long differences
+// would dominate.
 std::optional<double> EstimateScale(const DistinctMatches& matches,
                                     const TeaserOptions& options) {
   const std::vector<Eigen::Index> near =

@@ -19,10 +19,10 @@
 
 namespace quatro {
 
-// Which pairs of points are used.
+// The pairs of points whose differences are used.
 enum class TimLayout {
-  kRing,      // Each point with the previous one, the first with the last: N.
-  kComplete,  // All pairs: N (N - 1) / 2.
+  kRing,      // Each point with the previous one, cyclically: N pairs.
+  kComplete,  // All N (N - 1) / 2 pairs.
   kRandom,    // num_random pairs a != b, drawn with replacement.
 };
 
@@ -30,8 +30,8 @@ enum class TimLayout {
 using TimPair = std::pair<Eigen::Index, Eigen::Index>;
 
 // The pairs (a, b) among `num_points`. In a ring, two points give one pair, not
-// the same pair twice; fewer points give none. Only kRandom uses `num_random`
-// and `seed`.
+// the same pair twice. Fewer than two points give none. Only kRandom uses
+// `num_random` and `seed`.
 std::vector<TimPair> MakeTimPairs(Eigen::Index num_points,
                                   TimLayout layout,
                                   Eigen::Index num_random,

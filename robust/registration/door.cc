@@ -47,7 +47,7 @@ void RegisterBehindDoor(const Matches& matches,
                        const DescribedCloud* target,
                        const MatchedPoints* mutual_matches) {
     const LevelProblem problem{
-        source, target, bounds, options, prepared.solver};
+        source, target, bounds, options, prepared.solver, std::nullopt};
     RegisterLevel(p, q, problem, summary);
     if (mutual_matches)
       rung_matches = Climb(p, q, *mutual_matches, problem, summary);

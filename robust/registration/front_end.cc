@@ -212,12 +212,14 @@ MatchedClouds MatchClouds(
       SampleBoth(given, options.voxel_size, num_threads, &clouds.error);
   if (!voxels) return clouds;
   finish_stage("voxels");
-  const std::array<Fpfh, 2> fpfh = DescribeBoth(
+  std::array<Fpfh, 2> fpfh = DescribeBoth(
       *voxels, {&source_up, &target_up}, options, num_threads, &clouds);
   finish_stage("features");
   const auto& [source_voxels, target_voxels] = *voxels;
   std::vector<Match> matches =
       MatchMutualNearest(fpfh[0], fpfh[1], num_threads);
+  clouds.source.descriptors = std::make_shared<const Fpfh>(std::move(fpfh[0]));
+  clouds.target.descriptors = std::make_shared<const Fpfh>(std::move(fpfh[1]));
   clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
   clouds.mutual_matches = PointsOf(matches, source_voxels, target_voxels);
   if (options.tuple_test) {

@@ -9,6 +9,7 @@
 
 #include "robust/estimators/consensus.h"
 #include "robust/estimators/distinct_matches.h"
+#include "robust/registration/clique_proposals.h"
 #include "robust/registration/front_end.h"
 #include "robust/registration/pose_search.h"
 
@@ -20,9 +21,8 @@ constexpr double kVoxelFactor = 2.0;
 constexpr double kNormalFactor = 4.0 / 3.0;
 constexpr double kFpfhFactor = 7.0 / 3.0;
 
-// The estimator's pose replaces the candidate if its score is at least this
-// share of the candidate's. A pose whose tilt was not estimated replaces it
-// only if its score is not lower.
+// A pose is as good as another one if its score is at least this share of the
+// other's: the score is that of a sample.
 constexpr double kMinScoreShare = 0.95;
 
 // A consensus of more than this share of the matches is not due to chance.
@@ -33,7 +33,8 @@ bool HasTilt(const PoseSummary& summary) {
   return summary.model == PoseModel::kRigid;
 }
 
-// Runs an estimator on only the inliers of a candidate.
+// Runs an estimator on only the inliers of a candidate, and polishes its pose
+// in SE(3) by VG-ICP.
 class CandidateSolver {
  public:
   CandidateSolver(const PoseSearch& search,
@@ -59,7 +60,9 @@ class CandidateSolver {
     to_input(&summary.consistent);
     to_input(&summary.translation_inliers);
     summary.num_matches = source.cols();
-    if (!IsAsGood(summary)) {
+    if (summary.IsUsable()) Polish(&summary);
+    if (!summary.IsUsable() || ScoreOf(*summary.target_from_source) <
+                                   kMinScoreShare * ScoreOf(candidate_)) {
       // The candidate itself is the answer.
       summary.termination = PoseTermination::kSolved;
       summary.message =
@@ -78,11 +81,21 @@ class CandidateSolver {
   }
 
  private:
-  bool IsAsGood(const PoseSummary& summary) const {
-    return summary.IsUsable() &&
-           search_.ScoreOf(*summary.target_from_source).value() >=
-               (HasTilt(summary) ? kMinScoreShare : 1.0) *
-                   search_.ScoreOf(candidate_).value();
+  double ScoreOf(const Rigid3& pose) const {
+    return search_.ScoreOf(pose).value();
+  }
+
+  // Aligns the pose with the clouds. The aligned pose is taken if it is as
+  // good.
+  void Polish(PoseSummary* summary) const {
+    const Rigid3 pose = *summary->target_from_source;
+    const Rigid3 aligned = search_.Align(pose);
+    if (ScoreOf(aligned) < kMinScoreShare * ScoreOf(pose)) return;
+    if (!summary->unpolished_target_from_source) {
+      summary->unpolished_target_from_source = pose;
+    }
+    summary->target_from_source = aligned;
+    summary->model = PoseModel::kRigid;
   }
 
   const PoseSearch& search_;
@@ -152,7 +165,8 @@ class Ladder {
 
   // Climbs until a pose is registered. Returns the matches of the pose if it is
   // from a higher rung, else none.
-  MatchedPoints Climb() {
+  MatchedPoints Climb(const PointsRef& matched_source,
+                      const PointsRef& matched_target) {
     MatchedPoints answer;
     if (IsSurelyOutside()) return answer;
     for (int rung = 1;
@@ -163,10 +177,14 @@ class Ladder {
       }
       Stopwatch stopwatch;
       MatchedPoints matches = MatchesOf(rung, mutual_matches_, problem_);
+      const std::vector<ProposedPose> cliques =
+          rung == 1 ? ProposeByCliques(matched_source, matched_target, options_)
+                    : std::vector<ProposedPose>();
       std::vector<PoseCandidate> candidates =
           Search().Find(matches.source,
                         matches.target,
                         "rung " + std::to_string(rung),
+                        cliques,
                         problem_.bounds);
       FinishSearch(&stopwatch);
       if (candidates.empty()) continue;
@@ -230,16 +248,25 @@ class Ladder {
     attempt.num_target_voxels = summary_.num_target_voxels;
     attempt.num_mutual_matches = summary_.num_mutual_matches;
     attempt.rung = rung;
+    std::optional<SearchEvidence> search;
+    if (rung > 0 && options_.search.guided_matching) {
+      search.emplace();
+      search->is_first = rung == 1 && options_.search.is_first_scale;
+    }
     const PoseSolver solver =
         CandidateSolver(Search(),
                         problem_.solver,
                         candidate,
                         options_.search.bound_factor * options_.noise_bound);
-    RegisterLevel(
-        matched_source,
-        matched_target,
-        {problem_.source, problem_.target, problem_.bounds, options_, solver},
-        &attempt);
+    RegisterLevel(matched_source,
+                  matched_target,
+                  {problem_.source,
+                   problem_.target,
+                   problem_.bounds,
+                   options_,
+                   solver,
+                   search},
+                  &attempt);
     for (const StageTime& time : attempt.stage_times) {
       AddTime(time, &summary_.stage_times);
     }
@@ -273,7 +300,7 @@ MatchedPoints Climb(const PointsRef& matched_source,
   if (problem.options.search.max_rung == 0) return {};
   Ladder ladder(mutual_matches, problem, summary);
   ladder.CheckTilt(matched_source, matched_target);
-  return ladder.Climb();
+  return ladder.Climb(matched_source, matched_target);
 }
 
 }  // namespace quatro

@@ -8,10 +8,13 @@
 //   rung 2  as rung 1, with coarser voxels and descriptors of larger radii
 //
 // Each rung takes its best candidate and runs the estimator on the inliers of
-// that candidate. So the yaw comes from GNC with its certificate, and all later
-// stages are as usual. If the structure of the scans fits the candidate better
-// than the estimator's pose, the candidate is kept. The ladder ends with the
-// first pose that is registered; otherwise the pose with the highest
+// that candidate. So the yaw comes from GNC with its certificate. Ten inliers
+// determine a pose less accurately than the surfaces do, so the pose is then
+// aligned with the clouds by VG-ICP in SE(3). If the structure of the scans
+// fits the candidate better than this pose, the candidate is kept. The clouds
+// are matched again near the pose (features/guided_matching.h), for the
+// covariance and the verdict; all later stages are as usual. The ladder ends
+// with the first pose that is registered; otherwise the pose with the highest
 // probability is the answer.
 //
 // If few matches are inliers, the estimator finds no tilt between the scans,

@@ -103,6 +103,7 @@ DescribedCloud Leveled(const Eigen::Matrix3d& level_from_cloud,
   leveled.tree =
       std::make_shared<const KdTree>(Leveled(level_from_cloud, cloud.points()));
   leveled.normals = Leveled(level_from_cloud, cloud.normals);
+  leveled.descriptors = cloud.descriptors;
   leveled.sensor = level_from_cloud * cloud.sensor;
   leveled.is_scan = cloud.is_scan;
   return leveled;

@@ -25,7 +25,8 @@ namespace quatro {
 Points Leveled(const Eigen::Matrix3d& level_from_cloud,
                const PointsRef& points);
 
-// The cloud, its normals and its sensor in the level frame.
+// The cloud, its normals and its sensor in the level frame. Descriptors do not
+// depend on the frame.
 DescribedCloud Leveled(const Eigen::Matrix3d& level_from_cloud,
                        const DescribedCloud& cloud);
 

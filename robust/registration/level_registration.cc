@@ -3,8 +3,10 @@
 
 #include "robust/registration/level_registration.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "features/guided_matching.h"
 #include "robust/estimators/bound_solver.h"
 #include "robust/registration/refinement.h"
 #include "robust/verdict/evidence.h"
@@ -12,6 +14,14 @@
 
 namespace quatro {
 namespace {
+
+// Guided matches are inliers within the noise bound, or within this radius if
+// it is smaller [voxel sizes].
+constexpr double kMaxGuidedInlierRadius = 2.5;
+
+// Guided matches may be this far from the pose [inlier radii]. Descriptors that
+// choose at random on a surface then hit an inlier once in sixteen times.
+constexpr double kGuidedRadius = 4.0;
 
 class LevelRegistration {
  public:
@@ -26,6 +36,7 @@ class LevelRegistration {
         bounds_(problem.bounds),
         options_(problem.options),
         solver_(problem.solver),
+        search_(problem.search),
         summary_(*summary) {}
 
   void Run() {
@@ -49,16 +60,52 @@ class LevelRegistration {
     };
     summary_.solution = BoundSolver(solve, bounds_, options_.noise_bound)(
         matched_source_, matched_target_);
+    MatchedPoints guided_inliers;
+    if (search_ && summary_.solution.IsUsable()) {
+      guided_inliers = FindGuidedInliers();
+    }
     AddCovariance(matched_source_,
                   matched_target_,
                   options_.noise_bound,
                   options_.covariance,
+                  guided_inliers,
                   &summary_.solution);
     stopwatch_.Lap();
     for (const StageTime& time : summary_.solution.stage_times) {
       summary_.stage_times.push_back(time);
       if (options_.progress) options_.progress(time);
     }
+  }
+
+  // Matches the clouds near the pose, and returns the inliers.
+  MatchedPoints FindGuidedInliers() {
+    Stopwatch stopwatch;
+    const Rigid3& pose = *summary_.solution.target_from_source;
+    const double inlier_radius =
+        std::min(options_.noise_bound,
+                 kMaxGuidedInlierRadius * options_.front_end.voxel_size);
+    const std::vector<Match> matches =
+        MatchGuided(*source_,
+                    *target_,
+                    pose,
+                    kGuidedRadius * inlier_radius,
+                    options_.num_threads);
+    const Points& source = source_->points();
+    const Points& target = target_->points();
+    std::vector<Eigen::Index> source_inliers, target_inliers;
+    for (const Match& match : matches) {
+      if ((target.col(match.target) - pose * source.col(match.source)).norm() <=
+          inlier_radius) {
+        source_inliers.push_back(match.source);
+        target_inliers.push_back(match.target);
+      }
+    }
+    search_->num_guided_matches = static_cast<Eigen::Index>(matches.size());
+    search_->num_guided_inliers =
+        static_cast<Eigen::Index>(source_inliers.size());
+    summary_.solution.stage_times.push_back(
+        {"guided matching", stopwatch.Lap()});
+    return {Columns(source, source_inliers), Columns(target, target_inliers)};
   }
 
   void Refine() {
@@ -116,6 +163,7 @@ class LevelRegistration {
                                          evidence,
                                          num_threads)
                     .value_or(GeometricEvidence());
+    geometry_->search = search_;
     FinishStage("evidence");
   }
 
@@ -138,6 +186,7 @@ class LevelRegistration {
   const PoseBounds& bounds_;
   const RegistrationOptions& options_;
   const PoseSolver& solver_;
+  std::optional<SearchEvidence> search_;
   RegistrationSummary& summary_;
   Stopwatch stopwatch_;
   std::optional<GeometricEvidence> geometry_;

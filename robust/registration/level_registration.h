@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 // The stages after matching, with z up:
 //
-//   matches -> estimator -> covariance -> refinement -> geometric evidence
-//           -> verdict
+//   matches -> estimator -> guided matches, of a searched pose -> covariance
+//           -> refinement -> geometric evidence -> verdict
 
 #ifndef QUATRO_ROBUST_REGISTRATION_LEVEL_REGISTRATION_H_
 #define QUATRO_ROBUST_REGISTRATION_LEVEL_REGISTRATION_H_
+
+#include <optional>
 
 #include "features/base/types.h"
 #include "features/described_cloud.h"
@@ -14,6 +16,7 @@
 #include "robust/estimators/pose_summary.h"
 #include "robust/registration/options.h"
 #include "robust/registration/summary.h"
+#include "robust/verdict/evidence.h"
 
 namespace quatro {
 
@@ -25,6 +28,11 @@ struct LevelProblem {
   const PoseBounds& bounds;
   const RegistrationOptions& options;  // With shared values.
   const PoseSolver& solver;
+
+  // Set for a pose that was searched for: the clouds, which must have
+  // descriptors, are matched again near it (features/guided_matching.h), for
+  // the covariance and the verdict.
+  std::optional<SearchEvidence> search;
 };
 
 // Adds pose, verdict and stage times to the summary. Column i of

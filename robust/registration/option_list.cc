@@ -166,7 +166,11 @@ OptionList SearchOptionList(RegistrationOptions* options) {
           {"bound_factor",
            "> 0",
            "bound of the consensus search over noise_bound",
-           &o->bound_factor}};
+           &o->bound_factor},
+          {"guided_matching",
+           "",
+           "whether the clouds are matched again near a pose that was searched",
+           &o->guided_matching}};
 }
 
 OptionList InsOptionList(RegistrationOptions* options) {

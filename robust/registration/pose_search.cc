@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "features/base/parallel.h"
-#include "robust/estimators/consensus_search.h"
 #include "robust/estimators/distinct_matches.h"
 #include "robust/registration/vertical.h"
 #include "robust/verdict/structure.h"
@@ -196,12 +195,9 @@ Rigid3 PoseSearch::Align(const Rigid3& target_from_source) const {
   return aligner_ ? aligner_->Align(target_from_source) : target_from_source;
 }
 
-void PoseSearch::Propose(const PointsRef& matched_source,
-                         const PointsRef& matched_target,
-                         const std::string& origin,
-                         const Eigen::Matrix3d& level_from_source,
-                         const Eigen::Matrix3d& level_from_target,
-                         std::vector<PoseCandidate>* candidates) const {
+ConsensusSearchOptions PoseSearch::ConsensusOptions(
+    const Eigen::Matrix3d& level_from_source,
+    const Eigen::Matrix3d& level_from_target) const {
   ConsensusSearchOptions consensus;
   consensus.noise_bound = options_.bound_factor * noise_bound_;
   consensus.max_tilt = options_.max_tilt;
@@ -209,6 +205,17 @@ void PoseSearch::Propose(const PointsRef& matched_source,
   consensus.source_center = level_from_source * source_.sensor;
   consensus.target_center = level_from_target * target_.sensor;
   consensus.num_threads = num_threads_;
+  return consensus;
+}
+
+void PoseSearch::Propose(const PointsRef& matched_source,
+                         const PointsRef& matched_target,
+                         const std::string& origin,
+                         const Eigen::Matrix3d& level_from_source,
+                         const Eigen::Matrix3d& level_from_target,
+                         std::vector<PoseCandidate>* candidates) const {
+  const ConsensusSearchOptions consensus =
+      ConsensusOptions(level_from_source, level_from_target);
   const Eigen::Matrix3d target_from_level = level_from_target.transpose();
   for (const Proposal& proposal :
        SearchConsensus(matched_source, matched_target, consensus)) {
@@ -223,12 +230,14 @@ void PoseSearch::Propose(const PointsRef& matched_source,
   }
 }
 
-std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
-                                            const PointsRef& matched_target,
-                                            const std::string& origin,
-                                            const PoseBounds& bounds) const {
+std::vector<PoseCandidate> PoseSearch::Find(
+    const PointsRef& matched_source,
+    const PointsRef& matched_target,
+    const std::string& origin,
+    const std::vector<ProposedPose>& more,
+    const PoseBounds& bounds) const {
   if (!bounds.IsActive()) {
-    return FindAmong(matched_source, matched_target, origin, bounds);
+    return FindAmong(matched_source, matched_target, origin, more, bounds);
   }
   const PoseBounds wide = Widened(bounds, noise_bound_);
   const std::vector<Eigen::Index> columns = wide.PossibleInliers(
@@ -236,6 +245,7 @@ std::vector<PoseCandidate> PoseSearch::Find(const PointsRef& matched_source,
   return FindAmong(Columns(matched_source, columns),
                    Columns(matched_target, columns),
                    origin,
+                   more,
                    bounds);
 }
 
@@ -243,6 +253,7 @@ std::vector<PoseCandidate> PoseSearch::FindAmong(
     const PointsRef& matched_source,
     const PointsRef& matched_target,
     const std::string& origin,
+    const std::vector<ProposedPose>& more,
     const PoseBounds& bounds) const {
   std::vector<PoseCandidate> candidates;
   if (!aligner_ || matched_source.cols() == 0) return candidates;
@@ -256,6 +267,16 @@ std::vector<PoseCandidate> PoseSearch::FindAmong(
             level_from_source_,
             level_from_target_,
             &candidates);
+  }
+  for (const ProposedPose& pose : more) {
+    candidates.push_back(
+        {pose.target_from_source,
+         origin + ", " + pose.origin,
+         ConsensusLogLikelihoodRatio(matched_source,
+                                     matched_target,
+                                     pose.target_from_source,
+                                     ConsensusOptions(as_given, as_given)),
+         GeometricScore()});
   }
   const PoseBounds wide = Widened(bounds, noise_bound_);
   std::erase_if(candidates, [&](const PoseCandidate& candidate) {

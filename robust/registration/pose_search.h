@@ -5,7 +5,8 @@
 //   matches -> consensus search (robust/estimators/consensus_search.h), once
 //              with the given vertical and, if the walls of either scan are
 //              inclined against it, once with the vertical of the walls
-//              (robust/registration/vertical.h)
+//              (robust/registration/vertical.h); and the poses of cliques
+//              (robust/registration/clique_proposals.h)
 //           -> geometric score of each proposal, the best are kept
 //           -> VG-ICP in SE(3) from each of these (solvers/local/vgicp.h)
 //           -> geometric score again: candidates, the best first
@@ -30,6 +31,7 @@
 #include "features/base/rigid3.h"
 #include "features/base/types.h"
 #include "features/described_cloud.h"
+#include "robust/estimators/consensus_search.h"
 #include "robust/estimators/pose_bounds.h"
 #include "robust/estimators/proposal.h"
 #include "robust/verdict/geometric_score.h"
@@ -49,6 +51,9 @@ struct PoseSearchOptions {
   // have one scale.
   std::vector<double> scale_factors = {1.0};
 
+  // Whether the lengths are those of the first factor. Set by Register().
+  bool is_first_scale = true;
+
   // No rung or scale is started after this time [s]. If it is finite, the
   // result depends on the speed of the machine.
   double time_limit_seconds = std::numeric_limits<double>::infinity();
@@ -61,6 +66,10 @@ struct PoseSearchOptions {
 
   // The largest residual of an inlier of a candidate, in noise bounds.
   double bound_factor = 2.0;
+
+  // Whether the clouds are matched again near a candidate
+  // (features/guided_matching.h), for the covariance and the verdict.
+  bool guided_matching = true;
 
   // Returns false and says why in *error if a value is out of range.
   bool IsValid(std::string* error) const;
@@ -93,11 +102,13 @@ class PoseSearch {
              int num_threads);
   ~PoseSearch();
 
-  // The candidates within the bounds, the best first, no two alike. Column i of
-  // `matched_source` is matched with column i of `matched_target` [m].
+  // The candidates within the bounds, the best first, no two alike, from the
+  // consensus search and from `more` poses. Column i of `matched_source` is
+  // matched with column i of `matched_target` [m].
   std::vector<PoseCandidate> Find(const PointsRef& matched_source,
                                   const PointsRef& matched_target,
                                   const std::string& origin,
+                                  const std::vector<ProposedPose>& more,
                                   const PoseBounds& bounds) const;
 
   // The pose aligned with the clouds by VG-ICP in SE(3), starting from any
@@ -116,7 +127,13 @@ class PoseSearch {
   std::vector<PoseCandidate> FindAmong(const PointsRef& matched_source,
                                        const PointsRef& matched_target,
                                        const std::string& origin,
+                                       const std::vector<ProposedPose>& more,
                                        const PoseBounds& bounds) const;
+
+  // The consensus search in these frames, without matches.
+  ConsensusSearchOptions ConsensusOptions(
+      const Eigen::Matrix3d& level_from_source,
+      const Eigen::Matrix3d& level_from_target) const;
 
   // Adds the proposals for matches that were rotated into frames with z up by
   // `level_from_source` and `level_from_target`, the identity for the given

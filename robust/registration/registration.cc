@@ -33,11 +33,14 @@ RegistrationSummary Register(const PointCloud& source,
   double seconds = 0.0;
   for (const double factor : options.search.scale_factors) {
     RegistrationOptions scaled = ScaledBy(factor, options);
+    scaled.search.is_first_scale = !best;
     scaled.search.time_limit_seconds =
         std::max(0.0, options.search.time_limit_seconds - seconds);
     RegistrationSummary summary =
         RegisterMatched(MatchClouds(source, target, scaled), scaled);
     summary.scale_factor = factor;
+    // That of the clouds, not of the attempt.
+    summary.verdict.tolerance = ToleranceOf(options.noise_bound);
     seconds += summary.total_seconds;
     if (!best || IsBetter(summary, *best)) best = std::move(summary);
     if (!searches || !best->error.empty() || best->verdict.IsRegistered() ||

@@ -16,6 +16,8 @@
 //                      constrained alike.
 //   rival              another pose at which the scans overlap as well
 //                      (robust/verdict/geometric_rival.h)
+//   guided matches     of poses that were searched for: the inliers among
+//                      matches near the pose (features/guided_matching.h)
 //
 // Both clouds are level: z is up. All numbers are the same with source and
 // target swapped, except for rounding to cells.
@@ -67,6 +69,16 @@ struct FreeSpace {
   }
 };
 
+// Evidence for a pose that was searched for.
+struct SearchEvidence {
+  Eigen::Index num_guided_matches = 0;
+  Eigen::Index num_guided_inliers = 0;
+
+  // Whether the pose is from the first search, at rung 1 and at the first
+  // scale. The more searches, the more hypotheses were tried.
+  bool is_first = true;
+};
+
 // The evidence that two clouds give for and against a pose.
 struct GeometricEvidence {
   double structure_overlap = 0.0;  // In [0, 1].
@@ -82,6 +94,9 @@ struct GeometricEvidence {
 
   GeometricRival rival;
   FreeSpace rival_free_space;  // Evidence against the rival.
+
+  // Only for poses that were searched for (robust/registration/ladder.h).
+  std::optional<SearchEvidence> search;
 
   // How much better the pose is than its rival, in [-1, 1].
   double Distinctness() const { return rival.overlap - rival.rival_overlap; }

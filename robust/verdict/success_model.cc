@@ -18,6 +18,15 @@ constexpr double kMatchesWeights[] = {3.577, 3.931};
 constexpr double kCloudsIntercept = -8.557;
 constexpr double kCloudsWeights[] = {
     0.0, 0.984, 2.046, 3.001, 1.926, 2.576, 1.616};
+constexpr double kSearchIntercept = -11.792;
+constexpr double kSearchWeights[] = {
+    0.0, 0.087, 1.174, 3.389, 1.611, 2.697, 1.69, 3.906, 1.565};
+
+// The upper ends of two ramps.
+constexpr double kLargeOverlap = 0.3;
+constexpr double kLargeDistinctness = 0.15;
+constexpr double kLargeOverlapOfSearch = 0.5;
+constexpr double kLargeDistinctnessOfSearch = 0.3;
 
 // Typical values, assumed if free space is unknown, so that the feature has
 // little influence.
@@ -46,10 +55,17 @@ std::vector<Feature> MakeFeatures(
   const double rival_contradicted =
       geometry->rival_free_space.ContradictedShare().value_or(
           is_known ? contradicted : kUsualRivalContradictedShare);
-  features.push_back({"overlap", Ramp(geometry->structure_overlap, 0.0, 0.3)});
+  const auto& search = geometry->search;
+  features.push_back({"overlap",
+                      Ramp(geometry->structure_overlap,
+                           0.0,
+                           search ? kLargeOverlapOfSearch : kLargeOverlap)});
   features.push_back({"free_space", Ramp(1.0 - contradicted, 0.5, 0.95)});
   features.push_back(
-      {"distinctness", Ramp(geometry->Distinctness(), 0.0, 0.15)});
+      {"distinctness",
+       Ramp(geometry->Distinctness(),
+            0.0,
+            search ? kLargeDistinctnessOfSearch : kLargeDistinctness)});
   features.push_back(
       {"rival_refuted",
        std::max(Ramp(rival_contradicted - contradicted, 0.0, 0.1),
@@ -57,15 +73,28 @@ std::vector<Feature> MakeFeatures(
   features.push_back(
       {"held",
        Ramp(std::log10(std::max(1e-3, geometry->weakest_share)), -2.0, -0.8)});
+  if (search) {
+    features.push_back(
+        {"guided",
+         Ramp(std::log1p(static_cast<double>(search->num_guided_inliers)),
+              std::log(10.0),
+              std::log(100.0))});
+    features.push_back({"first_search", search->is_first ? 1.0 : 0.0});
+  }
   return features;
 }
 
 double ProbabilityOfSuccess(const std::vector<Feature>& features) {
-  const bool has_clouds = features.size() != std::size(kMatchesWeights);
-  const std::span<const double> weights =
-      has_clouds ? std::span<const double>(kCloudsWeights) : kMatchesWeights;
+  double sum = kMatchesIntercept;
+  std::span<const double> weights = kMatchesWeights;
+  if (features.size() == std::size(kCloudsWeights)) {
+    sum = kCloudsIntercept;
+    weights = kCloudsWeights;
+  } else if (features.size() == std::size(kSearchWeights)) {
+    sum = kSearchIntercept;
+    weights = kSearchWeights;
+  }
   CHECK_EQ(features.size(), weights.size());
-  double sum = has_clouds ? kCloudsIntercept : kMatchesIntercept;
   for (std::size_t j = 0; j < weights.size(); ++j) {
     sum += weights[j] * features[j].value;
   }

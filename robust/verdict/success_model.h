@@ -4,9 +4,11 @@
 //
 //   P = 1 / (1 + exp(-(w_0 + sum_j w_j x_j))),                             (1)
 //
-// There is one model for matches only, and one for matches and clouds. The
-// features x_j are ramps from 0 to 1, so that no single one decides, and
-// w_j >= 0, so that more evidence never lowers P.
+// There is one model for matches only, one for matches and clouds, and one for
+// poses that were searched for, where the best of many hypotheses is judged
+// (robust/registration/ladder.h). The features x_j are ramps from 0 to 1, so
+// that no single one decides, and w_j >= 0, so that more evidence never lowers
+// P.
 //
 //   surprise            ln(1 - log10 NFA) of the pose      0 .. 3
 //   margin              z against the match rival          0 .. 3
@@ -17,6 +19,14 @@
 //                       minus that of the pose, or, if
 //                       larger, the distinctness           0.4 .. 0.5
 //   held                log10 of the weakest share         -2 .. -0.8
+//
+// The model of poses that were searched for has ramps of 0 .. 0.5 for overlap
+// and 0 .. 0.3 for distinctness, and two more features,
+//
+//   guided              ln of the inliers of guided        ln 10 .. ln 100
+//                       matches, plus one
+//   first_search        1 if the pose is from the first
+//                       search, else 0
 //
 // (robust/verdict/false_alarms.h, robust/verdict/match_rival.h,
 // robust/verdict/evidence.h.) The weights were fitted by

@@ -14,12 +14,20 @@ namespace {
 // The noise bound, in standard deviations of an inlier.
 constexpr double kSigmasInBound = 3.0;
 
+Points Joined(const Points& a, const Points& b) {
+  Points joined(3, a.cols() + b.cols());
+  joined.leftCols(a.cols()) = a;
+  joined.rightCols(b.cols()) = b;
+  return joined;
+}
+
 }  // namespace
 
 void AddCovariance(const PointsRef& source,
                    const PointsRef& target,
                    double noise_bound,
                    const CovarianceOptions& options,
+                   const MatchedPoints& more,
                    PoseSummary* summary) {
   CHECK_EQ(source.cols(), target.cols());
   if (!summary->IsUsable()) return;
@@ -34,9 +42,9 @@ void AddCovariance(const PointsRef& source,
     of_pose.up_in_target = summary->vertical->up_in_target;
     of_pose.tilt_std = summary->vertical->angle_std;
   }
-  const DistinctMatches inliers =
-      FindDistinctMatches(Columns(source, summary->translation_inliers),
-                          Columns(target, summary->translation_inliers));
+  const DistinctMatches inliers = FindDistinctMatches(
+      Joined(Columns(source, summary->translation_inliers), more.source),
+      Joined(Columns(target, summary->translation_inliers), more.target));
   summary->covariance = ComputePoseCovariance(summary->scale * inliers.source,
                                               inliers.target,
                                               *summary->target_from_source,

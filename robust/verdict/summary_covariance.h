@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The covariance of an estimator's pose (solvers/ceres/pose_covariance.h) from
 // its inliers. Copies of a match count once. The noise bound is three standard
-// deviations of an inlier.
+// deviations of an inlier. `more` are inliers that are not among the solved
+// matches (features/guided_matching.h), column by column.
 //
 // If the estimator finds only the yaw (PoseSummary::model), the covariance
 // includes the uncertainty of the assumed roll and pitch.
@@ -11,6 +12,7 @@
 #define QUATRO_ROBUST_VERDICT_SUMMARY_COVARIANCE_H_
 
 #include "features/base/types.h"
+#include "features/matching.h"
 #include "robust/estimators/pose_summary.h"
 #include "solvers/ceres/pose_covariance.h"
 
@@ -23,6 +25,7 @@ void AddCovariance(const PointsRef& source,
                    const PointsRef& target,
                    double noise_bound,
                    const CovarianceOptions& options,
+                   const MatchedPoints& more,
                    PoseSummary* summary);
 
 }  // namespace quatro

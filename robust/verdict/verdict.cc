@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "features/base/degree.h"
 #include "robust/estimators/distinct_matches.h"
 
 namespace quatro {
@@ -93,6 +94,10 @@ const char* StatusName(Status status) {
   return "insufficient";
 }
 
+SuccessTolerance ToleranceOf(double noise_bound) {
+  return {20.0 / 3.0 * noise_bound, 10.0 * kDegree};
+}
+
 bool VerdictOptions::IsValid(std::string* error) const {
   if (!(min_probability >= 0.0 && min_probability <= 1.0)) {
     std::ostringstream problem;
@@ -110,6 +115,7 @@ Verdict Judge(const PointsRef& source,
               const std::optional<GeometricEvidence>& geometry,
               const VerdictOptions& options) {
   Verdict verdict;
+  verdict.tolerance = ToleranceOf(noise_bound);
   if (!summary.IsUsable()) {
     verdict.status = summary.termination == PoseTermination::kDegenerate
                          ? Status::kDegenerate

@@ -13,7 +13,8 @@
 //                v
 //   registered, ambiguous, degenerate or insufficient, and the reason
 //
-// A pose is correct if it is within 2 m and 10 deg of the true pose, the
+// A pose is correct if it is within 20/3 noise bounds and 10 deg of the true
+// pose. With the noise bound of preset kitti, these are 2 m and 10 deg, the
 // paper's criterion.
 
 #ifndef QUATRO_ROBUST_VERDICT_VERDICT_H_
@@ -56,13 +57,23 @@ struct VerdictOptions {
   bool IsValid(std::string* error) const;
 };
 
+// A pose is correct if it is within both of the true pose.
+struct SuccessTolerance {
+  double translation = 0.0;  // [m]
+  double rotation = 0.0;     // [rad]
+};
+
+// 20/3 times `noise_bound` [m], and 10 deg.
+SuccessTolerance ToleranceOf(double noise_bound);
+
 // The status and the evidence for it.
 struct Verdict {
   Status status = Status::kInsufficient;
   std::string reason = "no registration was tried";
 
-  // The probability that the pose is correct; 0 without a pose.
+  // The probability that the pose is within the tolerance; 0 without a pose.
   double probability = 0.0;
+  SuccessTolerance tolerance;
 
   // The features that the probability was computed from.
   std::vector<Feature> features;

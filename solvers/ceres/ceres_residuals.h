@@ -5,8 +5,8 @@
 //   r = sqrt(w) (q - R p - t),     its squared norm w || q - R p - t ||^2,  (1)
 //
 // where R is stored as the numbers of a group, TurnAboutZ or Turn. A group
-// defines how to rotate a point, Rotate(), and how its numbers change when R ->
-// exp([delta]x) R, to second order in delta, Perturb().
+// defines how to rotate a point, Rotate(), and how its numbers change under R
+// -> exp([delta]x) R, to second order in delta, Perturb().
 
 #ifndef QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_
 #define QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_
@@ -51,8 +51,9 @@ struct Turn {
     return Eigen::Map<const Eigen::Quaternion<T>>(r) * p;
   }
 
-  // exp = (sin(|delta| / 2) delta / |delta|, cos(|delta| / 2)) to second order,
-  // in a form that jets can evaluate at zero.
+  // The quaternion of exp([delta]x), (sin(|delta| / 2) delta / |delta|,
+  // cos(|delta| / 2)), to second order, in a form that jets can evaluate at
+  // zero.
   template <typename T>
   static void Perturb(const T* r, const T* delta, T* perturbed) {
     const T x = delta[0] * Constant<T>(0.5);
@@ -92,7 +93,7 @@ struct PairResidual {
 // Equation (1) for a rotation about z, with analytic derivatives.
 class AnalyticYawResidual final : public ceres::SizedCostFunction<3, 2, 3> {
  public:
-  // Takes the pair of the automatically differentiated residual.
+  // Takes the same pair as the residual that is differentiated automatically.
   explicit AnalyticYawResidual(const PairResidual<TurnAboutZ>& pair)
       : pair_(pair) {}
 

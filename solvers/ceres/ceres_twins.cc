@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kMaxNewtonSteps = 5;
 
-// R as the numbers of its group, and the u of x -> R x + u.
+// The motion x -> R x + shift, with R as the numbers of its group.
 template <typename Group>
 struct Motion {
   Eigen::Vector<double, Group::kSize> rotation;
@@ -28,8 +28,8 @@ struct Motion {
 };
 
 // The problem as given to Ceres. Pairs without weight are left out. Weights are
-// divided by their sum, because Ceres' gradient tolerance has a unit. Clouds
-// are moved to new origins, x - source_origin -> y - target_origin.
+// divided by their sum, because Ceres' gradient tolerance has a unit. Motions
+// map x - source_origin to y - target_origin.
 template <typename Group>
 struct PairProblem {
   std::vector<PairResidual<Group>> pairs;
@@ -57,8 +57,8 @@ PairProblem<Group> MakeProblem(const PointsRef& source,
 
 // Moves the origins if the translation is free. The minimum does not depend on
 // them, but its digits do. The source's origin is the weighted mean, about
-// which `curvature` is defined. The target's is the plain mean, so that t = 0
-// is not already the solution.
+// which `curvature` is defined. The target's origin is the plain mean, so that
+// the solution is not t = 0, unless all weights are equal.
 template <typename Group>
 void MoveOrigins(PairProblem<Group>& problem) {
   if (problem.pairs.empty()) return;
@@ -81,8 +81,8 @@ void MoveOrigins(PairProblem<Group>& problem) {
   problem.target_origin = target_guess + target_mean;
 }
 
-// The derivatives of the mean cost for R -> exp(delta) R in the first places
-// and, if N > kFreedoms, shift -> shift + tau in the others.
+// The derivatives of the mean cost with respect to delta in R -> exp([delta]x)
+// R, followed by tau in shift -> shift + tau if N > kFreedoms.
 template <int N, typename Group>
 SecondDerivative<N> DerivativeAt(const PairProblem<Group>& problem,
                                  const Motion<Group>& motion) {
@@ -119,7 +119,8 @@ struct Minimum {
   Eigen::Matrix<double, N, N> curvature;
 };
 
-// The shift is free if N > Group::kFreedoms. `make_cost` allocates for Ceres.
+// The shift is free if N > Group::kFreedoms. `make_cost` returns a new cost
+// function, which Ceres takes over.
 template <int N, typename Group, typename MakeCost>
 Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
                            const std::vector<Motion<Group>>& starts,
@@ -141,7 +142,7 @@ Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
   options.function_tolerance = 0.0;
   options.gradient_tolerance = 1e-15;
   options.parameter_tolerance = 1e-15;
-  // Steps are invalid once the digits of the cost are exhausted. That is no
+  // Steps are invalid once the digits of the cost are exhausted. That is not a
   // failure.
   options.max_num_consecutive_invalid_steps = options.max_num_iterations;
   options.logging_type = ceres::SILENT;
@@ -218,8 +219,8 @@ std::vector<Motion<Turn>> RotationStarts(const Eigen::Matrix3d& rotation) {
   return starts;
 }
 
-// The shift between the origins that corresponds to `initial`, for any
-// rotation.
+// Sets the shift of every start so that it moves the source's origin as
+// `initial` does.
 template <typename Group>
 void SetShifts(const PairProblem<Group>& problem,
                const Rigid3& initial,
@@ -229,7 +230,7 @@ void SetShifts(const PairProblem<Group>& problem,
   }
 }
 
-// The pose of `motion`, which is between the origins. R is its rotation.
+// The pose of `motion`, which is relative to the origins. R is its rotation.
 template <typename Group>
 Rigid3 ToRigid3(const PairProblem<Group>& problem,
                 const Eigen::Matrix3d& R,

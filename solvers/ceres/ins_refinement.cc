@@ -35,8 +35,8 @@ struct VerticalResidual {
   VerticalPrior prior;
 };
 
-// The second derivative of half of (1) for R -> exp(delta) R, where R u = v and
-// q = R p + t.
+// The second derivative of half of (1) for R -> exp([delta]x) R at a perfect
+// fit, R u = v and q_i = R p_i + t.
 Eigen::Matrix3d RotationCurvature(const PointsRef& centered_target,
                                   double noise_sigma,
                                   const VerticalPrior& prior) {
@@ -71,7 +71,7 @@ std::optional<InsRefinement> RefineWithIns(
   const Eigen::Vector3d target_mean = target.rowwise().mean();
   const Points p = source.colwise() - source_mean;
   const Points q = target.colwise() - target_mean;
-  // If either cloud is on one vertical line, there is no yaw.
+  // If either cloud is on one vertical line, the yaw is not observable.
   for (const Points& centered :
        {Points(initial_target_from_source.rotation * p), q}) {
     const Eigen::Vector3d curvature =

@@ -7,10 +7,10 @@
 //
 // where u and v are the unit vectors that point up in the source and in the
 // target. For small angles, |R u - v| is the angle between the two verticals.
-// The prior does not constrain the rotation about them: only the matches
-// constrain the yaw.
+// The prior does not constrain the rotation about the vertical, so only the
+// matches constrain the yaw.
 //
-// Swapping source and target, and u and v, gives the inverse.
+// Swapping source and target as well as u and v gives the inverse.
 
 #ifndef QUATRO_SOLVERS_CERES_INS_REFINEMENT_H_
 #define QUATRO_SOLVERS_CERES_INS_REFINEMENT_H_
@@ -27,7 +27,7 @@ namespace quatro {
 struct VerticalPrior {
   Eigen::Vector3d up_in_source = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d up_in_target = Eigen::Vector3d::UnitZ();
-  double angle_std = 0.01;  // About each level axis [rad].
+  double angle_std = 0.01;  // About each level axis [rad], > 0.
 
   // The second term of (1).
   double Cost(const Eigen::Matrix3d& target_from_source) const;
@@ -40,7 +40,8 @@ struct InsRefinement {
 };
 
 // A local minimum of (1), found by Ceres from `initial_target_from_source`.
-// `noise_sigma` is the standard deviation of each axis [m]. Returns nullopt if
+// Column i of `source` is matched with column i of `target` [m]. `noise_sigma`
+// > 0 is the standard deviation of a match on each axis [m]. Returns nullopt if
 // matches and prior together do not constrain the rotation (fewer than two
 // matches, or all on one vertical line), if anything is not finite, or if Ceres
 // fails.

@@ -9,8 +9,8 @@
 
 namespace quatro {
 
-// Plus rotates x by the angle delta. Minus is the signed angle from x to y.
-// Both are smooth across +-pi, where an angle parameter would jump.
+// Plus rotates x by the angle delta [rad]. Minus is the signed angle from x to
+// y. Both are smooth where a crosses pi, where an angle parameter would jump.
 struct UnitCircle {
   template <typename T>
   bool Plus(const T* x, const T* delta, T* x_plus_delta) const {

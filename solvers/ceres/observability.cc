@@ -14,7 +14,8 @@ namespace {
 
 using Eigen3 = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
-// Chooses the sign of the axis so that its largest coordinate is positive.
+// Chooses the sign of the axis so that its coordinate of largest magnitude is
+// positive.
 Eigen::Vector3d WithSign(const Eigen::Vector3d& axis) {
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
@@ -23,7 +24,7 @@ Eigen::Vector3d WithSign(const Eigen::Vector3d& axis) {
 
 std::string Text(const Eigen::Vector3d& vector, int digits) {
   char text[128];
-  // Rounded first, so that it does not read -0.00.
+  // Rounds first, so that no coordinate reads -0.00.
   const double unit = std::pow(10.0, digits);
   const Eigen::Vector3d rounded =
       ((vector * unit).array().round() / unit + 0.0).matrix();

@@ -20,7 +20,7 @@
 namespace quatro {
 namespace {
 
-constexpr double kMinConditioning = 1e-6;  // Lever arm over extent.
+constexpr double kMinConditioning = 1e-6;  // Least lever arm over extent.
 constexpr double kMaxRoundings = 8.0;
 
 // The matches of (3) relative to the centroids: x_i = R p_i' and y_i = q_i - c.
@@ -90,7 +90,8 @@ Vector6 Gradient(const CenteredMatches& matches,
   return gradient;
 }
 
-// Equation (1) as a function of the numbers of (3): delta is w of the group.
+// The residual of (1) as a function of the parameters of (3): delta is w, of
+// which a rotation about z has only the last coordinate.
 template <typename Group>
 struct PerturbedPair {
   using CostFunction =
@@ -129,9 +130,10 @@ struct PerturbedVertical {
   VerticalPrior prior;
 };
 
-// The covariance of (delta, u) by Ceres; zero in directions that the data do
-// not constrain. Lengths are in units of the extent, so that the rank does not
-// depend on the unit. Points are in a frame whose z is the axis of the group.
+// The covariance of (delta, u) by Ceres, which is zero in directions that the
+// data do not constrain. Lengths are in units of the extent, so that the rank
+// does not depend on the unit. The points are in a frame whose z axis is the
+// axis of TurnAboutZ.
 template <typename Group>
 std::optional<Eigen::MatrixXd> CeresCovariance(
     const Points& x,
@@ -160,7 +162,7 @@ std::optional<Eigen::MatrixXd> CeresCovariance(
   }
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
-  // Any rank: unobservable directions become zero.
+  // Accepts any rank. The covariance of unobservable directions is then zero.
   options.null_space_rank = -1;
   ceres::Covariance covariance(options);
   const std::vector<const double*> blocks = {delta, shift};
@@ -225,8 +227,9 @@ std::optional<Matrix6> EstimatedCovariance(const CenteredMatches& matches,
                  target_from_level.transpose());
 }
 
-// The effect of an error of the assumed tilt E s, s ~ N(0, tilt_std^2): the
-// error itself, and a shift of the best yaw by b^T s / a.
+// The effect of an error E s of the assumed tilt, s ~ N(0, tilt_std^2 I), where
+// the columns of E are two level axes. It is the error itself and the shift of
+// the best yaw that it causes, -(up^T A_ww E s) / (up^T A_ww up).
 Eigen::Matrix3d TiltCovariance(const Matrix6& information,
                                const PoseCovarianceOptions& options) {
   const Eigen::Matrix3d A_ww = information.topLeftCorner<3, 3>();
@@ -239,7 +242,7 @@ Eigen::Matrix3d TiltCovariance(const Matrix6& information,
 }
 
 // Returns why a direction is unobservable, or nullopt if it is observable. A
-// rotation is constrained by points off its axis or by a prior.
+// rotation is constrained by points away from its axis or by a prior.
 std::optional<UnobservableReason> WhyUnobservable(
     const DirectionInformation& direction,
     const Matrix6& match_information,
@@ -255,7 +258,7 @@ std::optional<UnobservableReason> WhyUnobservable(
   const double by_matches = w.dot(match_information.topLeftCorner<3, 3>() * w);
   const double by_prior =
       w.dot(information.topLeftCorner<3, 3>() * w) - by_matches;
-  // Root mean square distance from the axis [m].
+  // Root mean square distance of the points from the axis [m].
   const double lever = sigma * std::sqrt(by_matches / std::max(1.0, n));
   if (by_prior > 1.0 && by_prior >= by_matches) return std::nullopt;
   if (!(lever > std::max(kMinConditioning * matches.extent,
@@ -267,7 +270,7 @@ std::optional<UnobservableReason> WhyUnobservable(
   return std::nullopt;
 }
 
-// The directions that may be unobservable: all six, or yaw and translation.
+// The directions that are estimated: all six, or translation and yaw.
 std::vector<DirectionInformation> EstimatedDirections(
     const Matrix6& information,
     const Eigen::Vector3d& center,
@@ -284,7 +287,7 @@ std::vector<DirectionInformation> EstimatedDirections(
   return directions;
 }
 
-// The standard deviation of the direction in (w, u).
+// The standard deviation of (w, u) along the direction.
 double StandardDeviation(const DirectionInformation& direction,
                          const Matrix6& covariance) {
   const int place = direction.freedom == Freedom::kRotation ? 0 : 3;
@@ -299,7 +302,7 @@ double EstimateSigma(const CenteredMatches& matches,
   return std::sqrt((matches.y - matches.x).squaredNorm() / num_spare);
 }
 
-// "2 matches constrain 5 of 6 degrees of freedom; ..."
+// For example "2 matches constrain 5 of 6 degrees of freedom; ...".
 std::string DescribeMissing(Eigen::Index num_matches,
                             Eigen::Index num_freedoms,
                             const PoseCovariance& result) {
@@ -331,7 +334,7 @@ void AddUncertain(const std::vector<DirectionInformation>& directions,
   }
 }
 
-// Equation (3).
+// The derivative of (w, d) with respect to (w, u) in (3).
 Matrix6 FromCenter(const Eigen::Vector3d& arm) {
   Matrix6 from_center = Matrix6::Identity();
   for (int i = 0; i < 3; ++i) {

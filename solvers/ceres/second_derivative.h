@@ -38,7 +38,7 @@ struct SecondDerivative {
 template <int N>
 using JetOfJets = ceres::Jet<ceres::Jet<double, N>, N>;
 
-// The derivatives of f, a function of N jets, at zero.
+// The value and the derivatives of f at zero; see JetOfJets for its type.
 template <int N, typename Function>
 SecondDerivative<N> ComputeSecondDerivative(const Function& f) {
   using T = JetOfJets<N>;

@@ -22,14 +22,15 @@ struct CenteredPoints {
   Eigen::Vector3d centroid;  // c of (1) [m]
   Points points;             // p_i' of (1) [m]
 
-  // The rounding error of the p_i, as given [m].
+  // The largest rounding error of the p_i, as given [m].
   double rounding = 0.0;
 };
 
 // At least one weight must be > 0. Points with zero weight do not affect c.
 inline CenteredPoints Center(const PointsRef& points,
                              const WeightsRef& weights) {
-  // Start at the heaviest point: differences to points near it are exact.
+  // Starts at the heaviest point, because differences to points near it are
+  // exact.
   Eigen::Index heaviest = 0;
   weights.maxCoeff(&heaviest);
   const Eigen::Vector3d origin = points.col(heaviest);
@@ -49,7 +50,7 @@ inline CenteredPoints Center(const PointsRef& points,
 }
 
 // The largest value that rounding of the points, as given, can cause in sum_i
-// w_i p_i' q_i'^T [m^2]. A smaller value is indistinguishable from zero.
+// w_i p_i' q_i'^T [m^2]. A sum below it is indistinguishable from zero.
 inline double RoundingOfMoments(const CenteredPoints& p,
                                 const CenteredPoints& q,
                                 const WeightsRef& weights) {

@@ -21,7 +21,7 @@ namespace {
 // up to rounding.
 constexpr double kTie = 1e-12;
 
-// One measurement of (1), divided by c^2 / w.
+// One measurement of (1). Squared lengths are multiplied by w / c^2.
 struct Arc {
   double phi = 0.0;           // [rad]
   double length_error = 0.0;  // (a - b)^2
@@ -45,10 +45,10 @@ struct ArcEnd {
 // The reference moves with the sweep, so at_reference is a sum of small
 // residuals and nothing cancels.
 //
-// Removing an arc loses the digits below its own last one. So the sums are
-// recomputed once the removed arcs outweigh the remaining ones by a factor of
-// four. Then a long measurement does not drown the short ones, at a cost of
-// O(1) per arc if lengths are comparable.
+// Removing an arc leaves rounding errors of the arc's own size in the sums. So
+// they are recomputed once the removed arcs outweigh the remaining ones by a
+// factor of four. Then a long measurement does not hide the short ones, at a
+// cost of O(1) per arc if lengths are comparable.
 class Sinusoid {
  public:
   explicit Sinusoid(const std::vector<Arc>& arcs)
@@ -86,7 +86,8 @@ class Sinusoid {
     cosine_ = cosine;
   }
 
-  // at_reference + C - |(C, S)|, in a form that does not cancel.
+  // at_reference + C - |(C, S)| with C = cosine_ and S = sine_, in a form that
+  // does not cancel.
   double Minimum() const {
     const double length = std::hypot(cosine_, sine_);
     if (!(cosine_ > 0.0)) return at_reference_ + cosine_ - length;
@@ -130,12 +131,12 @@ Eigen::ArrayXd SquaredResiduals(const PointsRef& source,
          noise_bounds.array().square();
 }
 
-// The arcs, their ends in order, and where the sweep starts, at -pi.
+// The arcs, their ends in order, and the state at -pi, where the sweep starts.
 struct Circle {
   std::vector<Arc> arcs;
   std::vector<ArcEnd> ends;
   std::vector<std::int32_t> first_set;  // The arcs that contain -pi.
-  double outlier_weight = 0.0;          // Weight of the arcs outside the set.
+  double outlier_weight = 0.0;          // Weight of the other arcs.
 };
 
 Circle MakeCircle(const PointsRef& source,
@@ -154,7 +155,7 @@ Circle MakeCircle(const PointsRef& source,
     const double scale = weights[k] / bound2;
     const double pull = 2.0 * a * b;
     // Equation (2) by the half angle, which keeps its digits for narrow arcs:
-    // sin^2(half width / 2) = (c^2 - (a - b)^2) / (4 a b).
+    // sin^2(half_width / 2) = (c^2 - (a - b)^2) / (4 a b).
     const double room = bound2 - (a - b) * (a - b);
     if (!(weights[k] > 0.0) || !(pull > 0.0) || !(room >= 0.0)) continue;
     if (!std::isfinite(pull * scale)) continue;  // Overflow.
@@ -174,7 +175,7 @@ Circle MakeCircle(const PointsRef& source,
     if (end > M_PI) end -= 2.0 * M_PI;
     circle.ends.push_back({begin, false, index});
     circle.ends.push_back({end, true, index});
-    if (begin > end) {  // It contains -pi, where the sweep starts.
+    if (begin > end) {  // The arc contains -pi.
       circle.first_set.push_back(index);
       circle.outlier_weight -= weights[k];
     }
@@ -183,7 +184,7 @@ Circle MakeCircle(const PointsRef& source,
   return circle;
 }
 
-// The yaw with the least cost over all sets of arcs that the sweep meets.
+// The yaw with the least cost over all sets of arcs that the sweep visits.
 double SweepYaws(const Circle& circle, double total_weight) {
   double outlier_weight = circle.outlier_weight;
   Sinusoid sinusoid(circle.arcs);

@@ -46,8 +46,9 @@ Eigen::Matrix3d RelativeTilt(const Attitude& source, const Attitude& target) {
 
 Eigen::Matrix3d RotationBetween(const Eigen::Vector3d& from,
                                 const Eigen::Vector3d& to) {
-  // from -> -from -> to. Two reflections are a rotation by twice the angle
-  // between their normals. It is orthonormal however small from + to is.
+  // Maps `from` to -from, and that to `to`. The product of two reflections is a
+  // rotation by twice the angle between their normals. It is orthonormal even
+  // if |from + to| is small.
   const Eigen::Vector3d sum = from + to;
   Eigen::Vector3d normal = sum;
   if (sum.norm() < kOpposite) {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
-// The attitude of a vehicle from an INS, and its part that gravity determines.
-// With x forward, y to the left and z up,
+// The attitude of a vehicle from an INS, and the part of it that gravity
+// determines. With x forward, y to the left and z up,
 //
 //   world_from_body = R_z(yaw) R_y(pitch) R_x(roll).                        (1)
 //
-// Gravity constrains roll and pitch, so they do not drift; yaw does. Two level
-// frames differ only by a rotation about the vertical,
+// Gravity constrains roll and pitch, so they do not drift, whereas the yaw
+// does. Two level frames differ only by a rotation about the vertical,
 //
 //   target_from_source = level_from_target^-1 R_z level_from_source,        (2)
 //   level_from_body    = R_y(pitch) R_x(roll).                              (3)
@@ -28,15 +28,16 @@ struct Attitude {
 // Equation (1).
 Eigen::Matrix3d WorldFromBody(const Attitude& attitude);
 
-// The inverse of WorldFromBody(), with |pitch| <= pi / 2. At pi / 2 the angles
-// are not unique, and one solution is returned.
+// The inverse of WorldFromBody(), with |pitch| <= pi / 2. At |pitch| = pi / 2
+// only one combination of roll and yaw is determined, and the angles returned
+// may give a different rotation.
 Attitude AttitudeOf(const Eigen::Matrix3d& world_from_body);
 
 // Equation (3).
 Eigen::Matrix3d LevelFromBody(double roll, double pitch);
 
 // The part R_y R_x of the rotation R_z R_y R_x from source to target. Both
-// attitudes are in the same world frame. Unlike in (2), an error of the
+// attitudes are in the same world frame. Unlike in (2), an error in the
 // difference of the yaws affects the result.
 Eigen::Matrix3d RelativeTilt(const Attitude& source, const Attitude& target);
 

@@ -16,8 +16,8 @@ namespace quatro {
 namespace {
 
 // The least eigenvalue of (3) counts as zero below this fraction of sum_i w_i
-// |s_i| |t_i|. There, the rounding of M alone, 1e-16 of that sum, could rotate
-// the estimate by 1e-4 rad.
+// |s_i| |t_i|. At this fraction the rounding of M alone, 1e-16 of that sum,
+// could rotate the estimate by 1e-4 rad.
 constexpr double kMinCurvature = 1e-12;
 
 struct RotationOfM {

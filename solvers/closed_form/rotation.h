@@ -7,11 +7,11 @@
 //
 //   R = argmin_{R in SO(3)}  sum_i w_i || t_i - R s_i ||^2.                 (1)
 //
-// (1) depends on the pairs only through M. So it takes one pass over the pairs
-// and
+// Up to a constant, (1) depends on the pairs only through M. So it takes one
+// pass over the pairs and
 //
-//   M = sum_i w_i t_i s_i^T = U diag(d1, d2, |d3|) V^T,    d3 = +-|d3|,
-//   R = U diag(1, 1, det(U V^T)) V^T,  d3 signed as det(U V^T).             (2)
+//   M = sum_i w_i t_i s_i^T = U diag(d1, d2, |d3|) V^T,
+//   R = U diag(1, 1, det(U V^T)) V^T,   d3 = det(U V^T) |d3|.               (2)
 //
 // For R -> exp([delta]x) R the second derivative of (1) is
 //
@@ -19,8 +19,8 @@
 //
 // with eigenvalues 2 (d2 + d3) <= 2 (d1 + d3) <= 2 (d1 + d2). The least is zero
 // exactly if R is not unique: either the pairs are on one line through the
-// origin, d2 = d3 = 0, or a reflection fits them and the best two rotations
-// tie, d2 = -d3.
+// origin, d2 = d3 = 0, or a reflection fits them so well that all rotations
+// about one axis tie, d2 = -d3.
 //
 // Sources: Arun, Huang and Blostein, PAMI 1987; Umeyama, PAMI 1991 (the sign in
 // (2)). The tests compare with Horn's quaternions (JOSA A 1987).
@@ -49,10 +49,10 @@ struct RotationEstimate {
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
 };
 
-// `source` and `target` hold the pairs column by column. Their sizes and that
-// of `weights` must be equal. Returns nullopt if the pairs do not determine a
-// rotation: the least eigenvalue of (3) is zero up to rounding. This covers no
-// pairs, one pair, all weights zero, and NaN.
+// `source` and `target` hold the s_i and t_i column by column [m]. Their sizes
+// and that of `weights` must be equal. Returns nullopt if the pairs do not
+// determine a rotation: the least eigenvalue of (3) is zero up to rounding.
+// This covers no pairs, one pair, all weights zero, and NaN.
 std::optional<RotationEstimate> EstimateRotation(const PointsRef& source,
                                                  const PointsRef& target,
                                                  const WeightsRef& weights);
@@ -76,10 +76,11 @@ struct RigidEstimate {
 //
 //   R, t = argmin  sum_i w_i || q_i - R p_i - t ||^2                        (4)
 //
-// of points p_i in `source` and q_i in `target`. R is (1) for the points
-// relative to their weighted means; then t = mean(q) - R mean(p). The result is
-// accurate far from the origin, too. Returns nullopt as above; in particular,
-// the points must not be on one line.
+// for points p_i in `source` and q_i in `target` [m]. R is (1) for the points
+// relative to their weighted means, and t = mean(q) - R mean(p). The result is
+// accurate far from the origin, too. Returns nullopt under the same conditions,
+// with (3) of the centered points; in particular, the points must not be on one
+// line.
 std::optional<RigidEstimate> EstimateRigid(const PointsRef& source,
                                            const PointsRef& target,
                                            const WeightsRef& weights);

@@ -47,9 +47,9 @@ std::optional<ConsensusEstimate> EstimateConsensus(
   }
   std::sort(ends.begin(), ends.end());
 
-  // Weighted sums over the consensus set of (v - at) and (v - at)^2. The origin
-  // moves with the sweep, so it is near the whole set, and distant outliers
-  // leave no rounding error.
+  // Weighted sums over the consensus set of 1, (v - at) and (v - at)^2. The
+  // origin moves with the sweep, so it is near the whole set, and distant
+  // outliers leave no rounding error.
   double weight = 0.0;
   double first = 0.0;
   double second = 0.0;
@@ -72,7 +72,7 @@ std::optional<ConsensusEstimate> EstimateConsensus(
     first += sign * end.inverse_bound2 * offset;
     second += sign * end.inverse_bound2 * offset * offset;
     count += end.leaves ? -1 : 1;
-    // The set after a removal is a candidate, too. The larger set before it was
+    // The set after a removal is also a candidate. The larger set before it was
     // already considered.
     if (count == 0) continue;
     const double mean = first / weight;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 // The condition on matched points (p_i, q_i), i < N, that all estimators share:
-// equal numbers of both, and all finite. N may be zero.
+// the numbers of p_i and q_i are equal, and all points are finite. N may be
+// zero.
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_VALID_MATCHES_H_
 #define QUATRO_SOLVERS_CLOSED_FORM_VALID_MATCHES_H_

@@ -17,8 +17,8 @@ std::optional<YawEstimate> EstimateYaw(const PointsRef& source,
   CHECK_EQ(source.cols(), target.cols());
   CHECK_EQ(source.cols(), weights.size());
 
-  // Equation (2). `scale` is an upper bound of hypot(S, C). The ratio of the
-  // two separates signal from rounding in any unit of the weights.
+  // Equation (2). `scale` is an upper bound on hypot(S, C). The ratio of the
+  // two separates signal from rounding, whatever the unit of the weights.
   double S = 0.0;
   double C = 0.0;
   double scale = 0.0;
@@ -32,7 +32,7 @@ std::optional<YawEstimate> EstimateYaw(const PointsRef& source,
 
   const double alignment = std::hypot(S, C);
   if (!(alignment > scale * std::numeric_limits<double>::epsilon())) {
-    return std::nullopt;  // Also when scale is zero or anything is NaN.
+    return std::nullopt;  // Also if scale is zero or anything is NaN.
   }
 
   YawEstimate yaw;

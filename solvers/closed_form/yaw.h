@@ -6,15 +6,15 @@
 //
 //   yaw = argmin_a  sum_i w_i || xy(t_i) - R(a) xy(s_i) ||^2,             (1)
 //
-// with R(a) the counter-clockwise rotation by a and xy() the first two rows.
-// Expanding (1) gives a single sinusoid in a. So the minimum is global and
-// takes one pass over the pairs:
+// where R(a) is the counter-clockwise rotation by a, and xy() the first two
+// rows. Expanding (1) gives a single sinusoid in a. So the minimum is global
+// and takes one pass over the pairs:
 //
 //   yaw = atan2(S, C),   S = sum_i w_i (s_i x t_i)_z,
 //                        C = sum_i w_i <xy(s_i), xy(t_i)>.                (2)
 //
 // This is the rotation step of Quatro (Lim et al., ICRA 2022): gravity is
-// known, so roll and pitch are not estimated. Each pair there is a difference
+// known, so roll and pitch are not estimated. There, each pair is a difference
 // of two points, which makes (1) independent of the translation.
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_YAW_H_
@@ -41,9 +41,11 @@ struct YawEstimate {
   double curvature = 0.0;
 };
 
-// `source` and `target` hold the pairs column by column. Their sizes and that
-// of `weights` must be equal. Returns nullopt if the pairs do not determine a
-// yaw: there are none, all weights are zero, or all are on the z axis.
+// `source` and `target` hold the s_i and t_i column by column [m]. Their sizes
+// and that of `weights` must be equal. Returns nullopt if the pairs do not
+// determine a yaw, because the sinusoid is flat: for example, there are no
+// pairs, all weights are zero, or all pairs are on the z axis. Also returns
+// nullopt if a weight, x or y is NaN.
 std::optional<YawEstimate> EstimateYaw(const PointsRef& source,
                                        const PointsRef& target,
                                        const WeightsRef& weights);

@@ -7,7 +7,7 @@
 //   yaw, t = argmin  sum_i w_i || q_i - R_z(yaw) p_i - t ||^2.              (1)
 //
 // For any yaw, the best t is mean(q) - R_z(yaw) mean(p) with weighted means.
-// The rest is EstimateYaw() for the points relative to their means.
+// The yaw is that of EstimateYaw() for the points relative to their means.
 
 #ifndef QUATRO_SOLVERS_CLOSED_FORM_YAW_TRANSLATION_H_
 #define QUATRO_SOLVERS_CLOSED_FORM_YAW_TRANSLATION_H_
@@ -23,7 +23,7 @@ namespace quatro {
 // The minimum of (1) and its curvature.
 struct YawTranslationEstimate {
   Rigid3 target_from_source;
-  double yaw = 0.0;  // Rotation is RotationZ(yaw) [rad], in [-pi, pi].
+  double yaw = 0.0;  // [rad], in [-pi, pi]; the rotation is RotationZ(yaw).
 
   // Value of (1) at the minimum [m^2].
   double cost = 0.0;
@@ -35,10 +35,10 @@ struct YawTranslationEstimate {
   Eigen::Matrix4d curvature = Eigen::Matrix4d::Zero();
 };
 
-// `source` and `target` hold the points column by column. Their sizes and that
-// of `weights` must be equal. Returns nullopt if the points do not determine
-// the yaw: fewer than two have weight, those with weight are on one vertical
-// line in one of the clouds, or one is NaN.
+// `source` and `target` hold the points column by column [m]. Their sizes and
+// that of `weights` must be equal. Returns nullopt if the points do not
+// determine the yaw: for example, fewer than two have weight, those with weight
+// are on one vertical line in one of the clouds, or one is NaN.
 std::optional<YawTranslationEstimate> EstimateYawTranslation(
     const PointsRef& source,
     const PointsRef& target,

@@ -11,9 +11,9 @@
 namespace quatro {
 namespace {
 
-// (C + R B R^T)^-1, where a is the normal of C and b is R times the normal of
-// B: (2 I - s U U^T)^-1 with U = [a b] and s = 1 - epsilon, by Woodbury's
-// identity.
+// The inverse of C + R B R^T, where a is the normal of C and b is R times the
+// normal of B. By Woodbury's identity for 2 I - s U U^T with U = [a b] and s =
+// 1 - epsilon.
 Eigen::Matrix3d Information(const Eigen::Vector3d& a,
                             const Eigen::Vector3d& b,
                             double epsilon) {

@@ -8,8 +8,8 @@
 // where B_i and C_i are the covariances of the surfaces at p_i and q_i
 // (solvers/local/plane_alignment.h).
 //
-// The width of a kernel is sqrt(2) times a distance [m] along surfaces. An
-// error across them counts 1 / sqrt(epsilon) times as much.
+// A kernel of width c takes effect at a distance of sqrt(2) c [m] along the
+// surfaces. A distance across them counts 1 / sqrt(epsilon) times as much.
 //
 // Source: Segal, Haehnel and Thrun, "Generalized-ICP", RSS 2009.
 
@@ -27,10 +27,11 @@
 
 namespace quatro {
 
-// The options that solvers/local/plane_alignment.h describes.
+// Options are those of solvers/local/plane_alignment.h.
 using GicpOptions = PlaneAlignmentOptions;
 
-// All arguments must outlive the terms.
+// Both clouds must outlive the terms, and each point needs a normal, which may
+// be zero. The distance is in meters.
 std::unique_ptr<AlignmentTerms> MakeGicpTerms(
     const DescribedCloud& source,
     const DescribedCloud& target,
@@ -43,7 +44,7 @@ AlignmentSummary SolveGicp(const DescribedCloud& source,
                            const Rigid3& initial_target_from_source,
                            const GicpOptions& options);
 
-// Builds trees and normals, then aligns.
+// Builds trees and normals of both clouds, then aligns them.
 AlignmentSummary SolveGicp(const Points& source,
                            const Points& target,
                            const Rigid3& initial_target_from_source,

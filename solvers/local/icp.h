@@ -5,8 +5,8 @@
 //   q_i = the target's point nearest to R p_i + t,    W_i = I.
 //
 // The width of a kernel is a distance [m]. On smooth surfaces convergence is
-// slow, because nearest points resist sliding along the surface. For the same
-// reason, sliding of a plane along itself counts as observable.
+// slow, because nearest points resist sliding along the surface. For this
+// reason, a plane sliding along itself also counts as observable.
 //
 // Source: Besl and McKay, "A Method for Registration of 3-D Shapes", PAMI 1992.
 
@@ -22,7 +22,8 @@
 
 namespace quatro {
 
-// All arguments must outlive the terms; the points must be finite.
+// Both clouds must outlive the terms, and their points must be finite. The
+// distance is in meters.
 std::unique_ptr<AlignmentTerms> MakeIcpTerms(
     const Points& source,
     const KdTree& target,
@@ -34,7 +35,7 @@ AlignmentSummary SolveIcp(const Points& source,
                           const Rigid3& initial_target_from_source,
                           const LocalAlignmentOptions& options);
 
-// Builds the tree, then aligns.
+// Builds the tree of the target, then aligns.
 AlignmentSummary SolveIcp(const Points& source,
                           const Points& target,
                           const Rigid3& initial_target_from_source,

@@ -20,8 +20,7 @@ namespace {
 
 constexpr Eigen::Index kMinCorrespondences = 3;
 
-// Sums are computed over pieces of this size, and then over the pieces in
-// order.
+// Each piece of this size is summed on its own, and then the pieces in order.
 constexpr Eigen::Index kPiece = 256;
 
 // Conditioning below which a step is only rounding error.
@@ -38,14 +37,15 @@ Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
   return skew;
 }
 
-// (1), and the derivatives of half of it, at one pose.
+// The cost (1), and the derivatives of half of it, at one pose.
 struct System {
   Matrix6 hessian = Matrix6::Zero();
   Vector6 gradient = Vector6::Zero();
   double cost = 0.0;
   Eigen::Index num_inliers = 0;
 
-  // `moved` is R p + t - centroid. A step changes e to e - w x moved - d.
+  // `moved` is R p + t relative to the moved centroid. A step changes e to e -
+  // w x moved - d.
   void Add(const Eigen::Vector3d& moved,
            const Eigen::Vector3d& error,
            const Eigen::Matrix3d& information,
@@ -110,7 +110,7 @@ class Problem {
     return sum;
   }
 
-  // (1) at another pose, with the terms of the last Linearize().
+  // The cost (1) at another pose, with the terms of the last Linearize().
   double Cost(const Rigid3& pose) {
     ForEachPiece([&](std::size_t piece, std::size_t begin, std::size_t end) {
       double cost = 0.0;
@@ -150,7 +150,7 @@ class Problem {
   std::vector<System> systems_;
 };
 
-// `pose` after a rotation and a translation about the moved centroid.
+// `pose` after a rotation about the moved centroid and a translation.
 Rigid3 Moved(const Rigid3& pose,
              const Eigen::Vector3d& centroid,
              const Vector6& step) {
@@ -164,8 +164,8 @@ Rigid3 Moved(const Rigid3& pose,
   return {rotation, pose * centroid + step.tail<3>() - rotation * centroid};
 }
 
-// Eigenvalues with w in units of the length that gives both blocks the same
-// trace.
+// The eigenvalues, with w multiplied by the length that gives both blocks the
+// same trace.
 using Spectrum = Eigen::SelfAdjointEigenSolver<Matrix6>;
 
 Spectrum ScaledSpectrum(const Matrix6& hessian) {
@@ -176,7 +176,8 @@ Spectrum ScaledSpectrum(const Matrix6& hessian) {
   return Spectrum(scale.asDiagonal() * hessian * scale.asDiagonal());
 }
 
-// Describes the larger half of a direction.
+// Describes the rotation or the translation of a direction, whichever is
+// larger.
 std::string Describe(const Vector6& direction) {
   const bool is_turn = direction.head<3>().norm() > direction.tail<3>().norm();
   Eigen::Vector3d axis =
@@ -213,8 +214,8 @@ void Conclude(const System& system,
   summary->unobservable = spectrum.eigenvectors().leftCols(count);
 }
 
-// Takes a Levenberg-Marquardt step that does not raise the cost. If there is
-// none, the pose remains and both steps are zero.
+// Takes a Levenberg-Marquardt step that does not raise the cost. If none is
+// found, the pose remains and both steps are zero.
 AlignmentIteration TakeStep(const System& system,
                             Problem* problem,
                             Rigid3* pose,
@@ -362,7 +363,8 @@ AlignmentSummary AlignLocally(const Rigid3& initial_target_from_source,
 
     const AlignmentIteration iteration =
         TakeStep(system, &problem, &pose, &damping);
-    // Also true if no step was accepted: only rounding errors are left.
+    // This is also true if no step was accepted, when only rounding errors are
+    // left.
     is_converged =
         iteration.translation_step <= options.translation_tolerance &&
         iteration.rotation_step <= options.rotation_tolerance;

@@ -6,19 +6,20 @@
 //   R, t = argmin  sum_i rho(e_i^T W_i e_i),   e_i = q_i - R p_i - t,       (1)
 //
 // over the p_i with a correspondence, a q_i within max_correspondence_distance
-// of the moved point. The method defines q_i and W_i: see icp.h, gicp.h and
-// vgicp.h in solvers/local. Each iteration finds both at the current pose,
-// keeps them fixed, and takes one Gauss-Newton step, damped
-// (Levenberg-Marquardt) if the full step would not lower (1).
+// of the moved point R p_i + t. The method defines q_i and W_i: see icp.h,
+// gicp.h and vgicp.h in solvers/local. Each iteration finds both at the current
+// pose, keeps them fixed, and takes a Gauss-Newton step. A step that would
+// raise (1) is damped (Levenberg-Marquardt), and the damping fades over the
+// next iterations.
 //
-// Steps rotate about the centroid of the moved source. R <- exp(w) R and t <- t
-// + d are in coordinates with that origin, so large coordinates keep their
-// digits.
+// Steps rotate about the centroid of the moved source: R <- exp([w]x) R and t
+// <- t + d are in coordinates with that origin, so that large coordinates keep
+// their digits.
 //
 // There is no pose if fewer than three points correspond, or if the
 // correspondences do not constrain the pose: the least eigenvalue of the
-// Hessian is below min_conditioning times the largest. For this test, w is in
-// units of the length that gives both 3x3 blocks the same trace.
+// Hessian is at most min_conditioning times the largest. For this test, w is
+// multiplied by the length that gives both 3x3 blocks the same trace.
 //
 // The result does not depend on the number of threads, bit for bit.
 
@@ -50,8 +51,8 @@ struct LocalAlignmentOptions {
   double rotation_tolerance = 1e-4;     // [rad]
   int max_num_iterations = 50;
 
-  // In [0, 1). Below this conditioning the pose is degenerate. 0 accepts every
-  // pose that can be computed.
+  // The pose is degenerate if its conditioning is not above this value in [0,
+  // 1). 0 accepts every pose that can be computed.
   double min_conditioning = 3e-3;
 
   int num_threads = 1;  // 0: one per core. Does not change the result.
@@ -62,14 +63,14 @@ struct LocalAlignmentOptions {
 
 // The outcome of a local alignment.
 enum class AlignmentTermination {
-  kInvalidInput,  // Options out of range or points that are not finite.
+  kInvalidInput,  // Bad options, or coordinates not finite or too large.
   kInsufficient,  // Fewer than three points correspond.
   kDegenerate,    // Correspondences do not constrain the pose.
   kNotConverged,  // After max_num_iterations. There is a pose.
   kConverged,
 };
 
-// "invalid_input", "insufficient", ...
+// For example "not_converged".
 const char* TerminationName(AlignmentTermination termination);
 
 // One iteration.
@@ -89,16 +90,16 @@ struct AlignmentSummary {
   // Set iff kConverged or kNotConverged.
   std::optional<Rigid3> target_from_source;
 
-  // State at the last pose, for every termination. The Hessian is that of half
-  // of (1) with q, W and the weights rho' fixed, for R <- exp(w) R, t <- t + d
-  // in the order (w, d): w changes R but not t.
+  // The state at the last pose at which correspondences were searched for. The
+  // Hessian is that of half of (1) with q, W and the weights rho' fixed, for R
+  // <- exp([w]x) R and t <- t + d in the order (w, d): w changes R but not t.
   Matrix6 hessian = Matrix6::Zero();
   double cost = 0.0;             // (1)
   Eigen::Index num_inliers = 0;  // Number of correspondences.
 
-  // The least eigenvalue over the largest, scaled as described above, and as
-  // columns the directions in which the pose is not observable: unit vectors of
-  // (w times length, d).
+  // The least eigenvalue over the largest, scaled as described above. The
+  // columns are the directions in which the pose is not observable: unit
+  // vectors of (w times the length, d), for rotations about the centroid.
   double conditioning = 0.0;
   Eigen::Matrix<double, 6, Eigen::Dynamic> unobservable;
 
@@ -123,15 +124,16 @@ class AlignmentTerms {
   virtual const Points& source() const = 0;
 
   // Finds the term of source point i at a pose. Returns false if nothing
-  // corresponds. Called from several threads for different i, so it may store
-  // only state that belongs to i.
+  // corresponds. It is called from several threads for different i, so it may
+  // store only state that belongs to i.
   virtual bool Find(Eigen::Index i,
                     const Rigid3& target_from_source,
                     AlignmentTerm* term) = 0;
 };
 
-// Whether two clouds can be aligned: each has at least three points, all
-// finite. Otherwise sets the termination and the message of *summary.
+// Whether two clouds can be aligned: the options are valid, and each cloud has
+// at least three points, all finite. Otherwise sets the termination and the
+// message of *summary.
 bool CanAlign(const Points& source,
               const Points& target,
               const LocalAlignmentOptions& options,

@@ -3,12 +3,12 @@
 // The nearest point of a cloud to each of many queries that move a little at a
 // time.
 //
-// Suppose a search at x finds the nearest point at distance a and the second
-// nearest at b. At y with |y - x| = m, all other points are at least b - m
-// away. So if the distance of the nearest point is less than b - m, it is still
-// the nearest. If a - m exceeds max_distance, no point is within max_distance.
-// Only the other queries are searched again. The results are those of a search
-// for each query.
+// Suppose that a search at x finds the nearest point at distance a and the
+// second nearest at distance b. At y with |y - x| = m, all other points are at
+// least b - m away. So the nearest point is still the same if its distance from
+// y is less than b - m. If a - m exceeds max_distance, no point is within
+// max_distance. Only the other queries are searched again. The results are
+// those of a search for each query.
 //
 // Source: Greenspan and Godin, "A Nearest Neighbor Method for Efficient ICP",
 // 3DIM 2001, for the idea.
@@ -28,7 +28,8 @@ namespace quatro {
 // Nearest points that are searched again only if they may have changed.
 class NearestPoints {
  public:
-  // For `num_queries` moving queries. `cloud` must outlive this.
+  // Prepares `num_queries` moving queries. `cloud` must outlive this object.
+  // `max_distance` is in meters.
   NearestPoints(const KdTree& cloud,
                 Eigen::Index num_queries,
                 double max_distance)
@@ -36,8 +37,8 @@ class NearestPoints {
         max_distance_(max_distance),
         last_(static_cast<std::size_t>(num_queries)) {}
 
-  // The index of the point nearest to query i, now at `x`, or -1 if none is
-  // within max_distance. May be called from several threads for different i.
+  // The index of the point nearest to query i, now at `x`, or -1 if no point is
+  // within max_distance. It may be called from several threads for different i.
   Eigen::Index Find(Eigen::Index i, const Eigen::Vector3d& x) {
     Last& last = last_[static_cast<std::size_t>(i)];
     if (last.index >= 0) {

@@ -6,8 +6,8 @@
 //   I - (1 - epsilon) n n^T,                                               (1)
 //
 // where n is its unit normal. The variance is epsilon across the surface and 1
-// along it. If the neighbors of a point show no plane, it has no normal, and
-// its covariance is I.
+// along it. If a point has no normal, because its neighbors are too few or on
+// one line, its covariance is I.
 
 #ifndef QUATRO_SOLVERS_LOCAL_PLANE_ALIGNMENT_H_
 #define QUATRO_SOLVERS_LOCAL_PLANE_ALIGNMENT_H_
@@ -40,13 +40,13 @@ inline Eigen::Matrix3d SurfaceCovariance(const Eigen::Vector3d& normal,
 }
 
 // The direction of least variance of the `num_neighbors` points nearest to each
-// point, including itself.
+// point, including itself. Zero if they are all on one line.
 Points EstimateNearestNormals(const KdTree& tree,
                               int num_neighbors,
                               int num_threads);
 
-// Builds trees and normals of both clouds, then returns the result of `solve`,
-// with the times of both added.
+// Builds trees and normals of both clouds, then returns the result of `solve`
+// with the times of both added. Does not call `solve` if CanAlign() is false.
 AlignmentSummary SolveWithNormals(
     const Points& source,
     const Points& target,

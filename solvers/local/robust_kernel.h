@@ -7,9 +7,9 @@
 //   Cauchy         c^2 log(1 + s / c^2)                    c^2 / (c^2 + s)
 //   Geman-McClure  c^2 s / (c^2 + s)                       (c^2 / (c^2 + s))^2
 //
-// The weight is the derivative. Each kernel is concave and behaves like s for
-// small s. So a step that lowers the weighted sum of squares also lowers the
-// sum of the kernels.
+// The weight is the derivative of rho. Each kernel is concave in s and behaves
+// like s for small s. So a step that lowers the weighted sum of the s also
+// lowers the sum of the rho(s).
 
 #ifndef QUATRO_SOLVERS_LOCAL_ROBUST_KERNEL_H_
 #define QUATRO_SOLVERS_LOCAL_ROBUST_KERNEL_H_
@@ -42,6 +42,7 @@ struct RobustKernel {
     return s;
   }
 
+  // rho'(s).
   double Weight(double s) const {
     const double c2 = width * width;
     switch (type) {

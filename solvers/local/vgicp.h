@@ -5,13 +5,14 @@
 //
 //   q_i = mean q_j,   W_i = N (mean C_j + R B_i R^T)^-1,                    (1)
 //
-// B and C are the covariances of the surfaces
-// (solvers/local/plane_alignment.h). Each point takes one voxel lookup
-// instead of a search for neighbors. Voxels are cubes anchored at the origin of
-// the target.
+// where B_i and C_j are the covariances of the surfaces at p_i and q_j
+// (solvers/local/plane_alignment.h). Each point takes one voxel lookup instead
+// of a search for neighbors. Voxels are cubes anchored at the origin of the
+// target. A point in an empty voxel has no correspondence.
 //
-// A term is weighted by the number of points in its voxel. So the width of a
-// kernel is sqrt(N) times that of G-ICP.
+// A term is weighted by the number of points in its voxel. So the kernel takes
+// effect at the same distance as in G-ICP if its width is sqrt(N) times as
+// large.
 //
 // Source: Koide, Yokozuka, Oishi and Banno, "Voxelized GICP for Fast and
 // Accurate 3D Point Cloud Registration", ICRA 2021.
@@ -50,7 +51,7 @@ AlignmentSummary SolveVgicp(const DescribedCloud& source,
                             const Rigid3& initial_target_from_source,
                             const VgicpOptions& options);
 
-// Builds trees and normals, then aligns.
+// Builds trees and normals of both clouds, then aligns them.
 AlignmentSummary SolveVgicp(const Points& source,
                             const Points& target,
                             const Rigid3& initial_target_from_source,

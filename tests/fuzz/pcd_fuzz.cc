@@ -12,17 +12,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   const auto cloud = quatro::ParsePcd(quatro::AsText(data, size), &error);
   quatro::CheckCloud(cloud, error);
   if (!cloud) return 0;
-  const auto bytes = quatro::FormatPcd(*cloud, &error);
-  if (!bytes) {
-    quatro::CheckIsOneLine(error);  // Beyond float32.
-    return 0;
-  }
+  const std::string bytes = quatro::FormatPcd(*cloud);
   // Points that float32 rounds to the origin are dropped.
   const quatro::Points rounded = cloud->points.cast<float>().cast<double>();
   if ((rounded.array() == 0.0).colwise().all().any()) return 0;
-  const auto again = quatro::ParsePcd(*bytes, &error);
+  const auto again = quatro::ParsePcd(bytes, &error);
   CHECK(again) << error;
   CHECK_EQ(again->num_dropped, 0);
-  CHECK(again->points == rounded);
+  CHECK(again->points == cloud->points || again->points == rounded);
   return 0;
 }

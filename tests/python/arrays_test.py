@@ -4,6 +4,7 @@
 
 import gzip
 import os
+import pathlib
 import tracemalloc
 
 import numpy as np
@@ -96,7 +97,9 @@ def test_rows_on_top_of_each_other_are_copied():
 
 
 @pytest.mark.parametrize('given, text', [
-    (np.zeros((3, 100)), 'source_points has shape (3, 100), must be (N, 3)'),
+    (np.zeros((3, 100)), 'source_points has shape (3, 100), must be (N, 3); pass source_points.T'),
+    (np.zeros((100, 4)), 'source_points has shape (100, 4), must be (N, 3); it has 4 columns, '
+                         'pass source_points[:, :3]'),
     (np.zeros(3), 'source_points has shape (3,), must be (N, 3)'),
     (np.zeros((4, 3, 1)), 'source_points has shape (4, 3, 1), must be (N, 3)'),
     (np.zeros((100, 3), dtype=complex),
@@ -109,6 +112,33 @@ def test_other_shapes_and_types_are_refused(given, text):
     with pytest.raises(ValueError) as error:
         quatro.solve(given, np.zeros((100, 3)))
     assert str(error.value) == text
+
+
+def test_masked_entries_are_not_read():
+    source, target = problems.matches(3, TRUTH)
+    masked = np.ma.array(source, mask=np.zeros(source.shape, bool))
+    assert np.array_equal(pose_of(masked, target), pose_of(source, target))
+    masked[7, 1] = np.ma.masked
+    with pytest.raises(ValueError) as error:
+        quatro.solve(masked, target)
+    assert str(error.value) == ('source_points has masked entries; pass '
+                                'source_points[~source_points.mask.any(axis=1)]')
+    kept = ~masked.mask.any(axis=1)
+    assert quatro.solve(masked[kept], target[kept]).target_from_source is not None
+    guess = np.ma.array(np.eye(4), mask=np.eye(4) == 1)
+    with pytest.raises(ValueError, match='guess has masked entries'):
+        quatro.solve(source, target, guess=guess, max_yaw_deg=5.0)
+
+
+@pytest.mark.parametrize('path', ['a.bin', b'a.bin', pathlib.Path('a.bin')])
+def test_a_path_is_not_a_cloud(path):
+    points = np.zeros((100, 3))
+    for function, name in ((quatro.register, 'source'), (quatro.align, 'source'),
+                           (quatro.solve, 'source_points')):
+        with pytest.raises(TypeError) as error:
+            function(path, points)
+        assert str(error.value) == ('%s = %r, must be an (N, 3) array; quatro.read_cloud() reads '
+                                    'files' % (name, path))
 
 
 def test_numbers_of_rows_must_agree():

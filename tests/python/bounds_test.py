@@ -59,9 +59,9 @@ def test_bounds_that_do_not_fit_are_refused():
                           ({'max_translation': -1.0}, 'max_translation'),
                           ({'max_yaw_deg': 200.0}, 'max_yaw'),
                           ({'guess': np.ones((4, 4)), 'max_yaw_deg': 5.0},
-                           'guess is not a rigid motion'),
+                           'guess is not a rigid motion: .* a rotation to 1e-3'),
                           ({'guess': np.eye(3), 'max_yaw_deg': 5.0},
-                           r'guess has shape \(3, 3\), must be \(4, 4\)'),
+                           r'guess has shape \(3, 3\), must be \(4, 4\) or \(3, 4\)$'),
                           ({'method': 'teaser', 'estimate_scale': True, 'max_yaw_deg': 5.0},
                            'estimate_scale')):
         with pytest.raises(ValueError, match=text):
@@ -70,6 +70,16 @@ def test_bounds_that_do_not_fit_are_refused():
     assert quatro.solve(source, target, method='teaser', estimate_scale=True).scale != 1.0
     assert quatro.solve(source, target, method='teaser', estimate_scale=False, noise_bound=0.1,
                         max_translation=4.0, max_yaw_deg=30.0).num_inliers == 60
+
+
+def test_a_pose_may_be_its_first_three_rows():
+    source, target = two_poses(1)
+    poses = [quatro.solve(source, target, noise_bound=0.1, guess=guess, max_translation=4.0,
+                          max_yaw_deg=30.0).target_from_source for guess in (MANY, MANY[:3])]
+    assert poses[0] is not None and np.array_equal(*poses)
+    aligned = [quatro.align(source, target, 'icp', initial).target_from_source
+               for initial in (MANY, MANY[:3])]
+    assert aligned[0] is not None and np.array_equal(*aligned)
 
 
 def test_points_are_moved():

@@ -131,12 +131,35 @@ def test_refinement_is_told():
     (SOURCE, {'method': 'ransac', 'confidence': 2}, 'confidence = 2, must be in (0, 1]'),
     (SOURCE, {'preset': 'moon'}, 'preset = "moon", must be one of kitti, paper, kitti_paper, '
                                  'reference, indoor, auto'),
+    (SOURCE, {'preset': 'teaser'}, 'preset = "teaser", must be one of kitti, paper, kitti_paper, '
+                                   'reference, indoor, auto; it is a method: method=...'),
+    *[(SOURCE, {'gravity': 'scans', **options},
+       'gravity = "scans" has no effect here: it needs two clouds, a method that searches other '
+       'poses, such as quatro, max_rung > 0, and neither an INS nor bounds on the pose')
+      for options in ({'method': 'quatro_single'}, {'max_rung': 0}, {'max_yaw_deg': 30.0},
+                      {'preset': 'paper'})],
     (SOURCE, {'refine': 'ndt'}, 'refine = "ndt", must be one of none, icp, gicp, vgicp'),
 ])
 def test_what_the_library_refuses(source, options, text):
     with pytest.raises(ValueError) as error:
         quatro.register(source, TARGET, **{'preset': 'kitti', **options})
     assert str(error.value) == text
+
+
+def test_a_direction_is_not_gravity():
+    for gravity in ((0, 0, -1), 9.81):
+        with pytest.raises(TypeError, match=r'^gravity = .*, must be one of given, scans, none; '
+                                            r'a direction is up=\(x, y, z\)$'):
+            quatro.register(SOURCE, TARGET, gravity=gravity)
+
+
+@pytest.mark.parametrize('misspelled, option', [
+    ('threads', 'num_threads'), ('max_yaw', 'max_yaw_deg'), ('voxelsize', 'voxel_size')])
+def test_the_option_that_was_meant_is_named(misspelled, option):
+    with pytest.raises(TypeError) as error:
+        quatro.register(SOURCE, TARGET, **{misspelled: 1})
+    assert str(error.value) == ('register(method="quatro") has no option %s, did you mean %s? '
+                                'help(quatro.register) lists all' % (misspelled, option))
 
 
 def test_a_cloud_too_wide_is_refused():
@@ -161,6 +184,33 @@ def test_local_alignment_ends_at_the_pose(method):
                         max_num_iterations=1).termination == 'not_converged'
 
 
+def test_a_pose_may_be_rounded():
+    rounded = np.round(NEARLY, 4)
+    rotation = rounded[:3, :3]
+    assert not np.allclose(rotation @ rotation.T, np.eye(3), rtol=0, atol=1e-6)
+    u, _, vt = np.linalg.svd(rotation)
+    nearest = rounded.copy()
+    nearest[:3, :3] = u @ vt
+    poses = [quatro.align(SOURCE, TARGET, 'icp', start).target_from_source
+             for start in (rounded, nearest)]
+    assert np.allclose(*poses, rtol=0, atol=1e-6)
+    assert np.allclose(poses[0][:3, :3] @ poses[0][:3, :3].T, np.eye(3), rtol=0, atol=1e-9)
+    answer = quatro.register(SOURCE, TARGET, guess=rounded, max_yaw_deg=30.0)
+    assert answer.target_from_source is not None
+
+
+@pytest.mark.parametrize('wrong', [None, 1, ['icp']])
+def test_a_name_of_another_type_is_refused_in_one_line(wrong):
+    for function in (quatro.register, quatro.solve, quatro.align):
+        with pytest.raises(TypeError) as error:
+            function(SOURCE, TARGET, method=wrong)
+        assert str(error.value) == 'method = %r, must be a str' % (wrong,)
+    for function in (quatro.register, quatro.solve):
+        with pytest.raises(TypeError) as error:
+            function(SOURCE, TARGET, preset=wrong)
+        assert str(error.value) == 'preset = %r, must be a str' % (wrong,)
+
+
 def test_local_alignment_refuses():
     bad = SOURCE.copy()
     bad[5, 0] = np.nan
@@ -168,11 +218,11 @@ def test_local_alignment_refuses():
             ((bad, TARGET), 'a point of the source is not finite'),
             ((SOURCE, TARGET, 'ndt'), 'method = "ndt", must be one of icp, gicp, vgicp'),
             ((SOURCE, TARGET, 'icp', np.eye(3)),
-             'initial_target_from_source has shape (3, 3), must be (4, 4)'),
-            ((SOURCE, TARGET, 'icp', 2 * np.eye(4)),
-             'initial_target_from_source is not a rigid motion'),
-            ((SOURCE, TARGET, 'icp', np.diag([1, 1, -1, 1])),
-             'initial_target_from_source is not a rigid motion')]:
+             'initial_target_from_source has shape (3, 3), must be (4, 4) or (3, 4)'),
+            *[((SOURCE, TARGET, 'icp', pose),
+               'initial_target_from_source is not a rigid motion: its first three columns must be '
+               'a rotation to 1e-3, and a fourth row 0 0 0 1')
+              for pose in (2 * np.eye(4), np.diag([1, 1, -1, 1]))]]:
         with pytest.raises(ValueError) as error:
             quatro.align(*arguments)
         assert str(error.value) == text

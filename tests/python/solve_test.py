@@ -213,7 +213,9 @@ def test_names_that_are_not_known_are_refused():
         quatro.solve(source, target, method='orb')
     with pytest.raises(ValueError, match='^preset = "auto", must be one of kitti, .*indoor$'):
         quatro.solve(source, target, preset='auto')
-    for method, option in [('quatro', 'confidence'), ('ransac', 'polish'), ('fgr', 'seed_'),
+    with pytest.raises(ValueError, match='^method = "kitti", .*vgicp; it is a preset: preset=...$'):
+        quatro.solve(source, target, 'kitti')
+    for method, option in [('quatro', 'confidence'), ('ransac', 'polish'), ('fgr', 'sample'),
                            ('quatro_exact', 'surrogate'), ('teaser', 'ins_mode'),
                            ('quatro', 'voxel_size')]:
         with pytest.raises(TypeError, match=r'^solve\(method="%s"\) has no option %s, must be '

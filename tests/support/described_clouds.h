@@ -19,7 +19,11 @@ inline DescribedCloud MakeDescribedCloud(
     const Points& normals,
     const Eigen::Vector3d& sensor = Eigen::Vector3d::Zero(),
     bool is_scan = true) {
-  return {std::make_shared<const KdTree>(points), normals, sensor, is_scan};
+  return {std::make_shared<const KdTree>(points),
+          normals,
+          /*descriptors=*/nullptr,
+          sensor,
+          is_scan};
 }
 
 }  // namespace quatro

@@ -3,14 +3,18 @@
 
 #include "experiments/base/outputs.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <string>
 
+#include "experiments/base/one_line.h"
 #include "tests/support/run_program.h"
 
 namespace quatro {
@@ -62,6 +66,29 @@ TEST_F(OutputsTest, AFilterReadsAndWritesADash) {
   EXPECT_TRUE(CanWriteAll({{"json", "-"}}, {"-"}, &error)) << error;
 }
 
+TEST_F(OutputsTest, ADeviceIsWrittenNotReplaced) {
+  std::string error;
+  ASSERT_TRUE(
+      CanWriteAll({{"json", "/dev/null"}, {"report", "/dev/null"}}, {}, &error))
+      << error;
+  EXPECT_TRUE(WriteOutputs({{"/dev/null", "one\n"}, {"a.txt", "two"}}, &error));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_EQ(Read("a.txt"), "two");
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  ASSERT_TRUE(CanWriteAll({{"json", "/dev/full"}}, {}, &error)) << error;
+  EXPECT_FALSE(
+      WriteOutputs({{"/dev/full", "one\n"}, {"b.txt", "two"}}, &error));
+  EXPECT_EQ(error, "/dev/full: could not be written");
+  EXPECT_FALSE(std::filesystem::exists("b.txt"));
+}
+
+TEST_F(OutputsTest, APipeIsRefused) {
+  std::string error;
+  ASSERT_EQ(mkfifo("pipe", 0600), 0);
+  EXPECT_FALSE(CanWrite("pipe", &error));
+  EXPECT_EQ(error, "pipe: is not a regular file; - is standard output");
+}
+
 TEST_F(OutputsTest, AFileIsWrittenOnce) {
   std::string error;
   EXPECT_FALSE(
@@ -85,6 +112,7 @@ TEST_F(OutputsTest, AReaderThatHasGoneIsToldAndLeavesFilesAlone) {
   EXPECT_FALSE(WriteOutputs({{"-", "one\n"}, {"a.txt", "two"}}, &error));
   dup2(before, STDOUT_FILENO);
   std::clearerr(stdout);
+  std::cout.clear();
   EXPECT_EQ(error, "standard output: could not be written");
   EXPECT_TRUE(Contents().empty());
 }
@@ -126,6 +154,87 @@ TEST_F(OutputsTest, AFolderIsNotStandardOutput) {
   EXPECT_THAT(error, HasSubstr("--output=-: a folder cannot go to"));
   EXPECT_FALSE(CanBeFolder({"output", ""}, &error));
   EXPECT_EQ(error, "--output is empty, must name a folder");
+}
+
+TEST_F(OutputsTest, ALinkToAMissingFileIsFollowedToo) {
+  std::string error;
+  std::filesystem::create_directory("results");
+  std::filesystem::create_symlink("results/link.json", "link.json");
+  std::filesystem::create_symlink("real.json", "results/link.json");
+  EXPECT_FALSE(CanWriteAll(
+      {{"json", "link.json"}, {"report", "results/real.json"}}, {}, &error));
+  EXPECT_THAT(error, HasSubstr("is to be written, but is also"));
+  ASSERT_TRUE(CanWriteAll({{"json", "link.json"}}, {}, &error)) << error;
+  EXPECT_TRUE(WriteOutputs({{"link.json", "new"}}, &error)) << error;
+  EXPECT_TRUE(std::filesystem::is_symlink("link.json"));
+  EXPECT_TRUE(std::filesystem::is_symlink("results/link.json"));
+  EXPECT_EQ(Read("results/real.json"), "new");
+}
+
+TEST_F(OutputsTest, ALoopOfLinksIsRefused) {
+  std::string error;
+  std::filesystem::create_symlink("b.json", "a.json");
+  std::filesystem::create_symlink("a.json", "b.json");
+  EXPECT_FALSE(CanWriteAll({{"json", "a.json"}}, {}, &error));
+  EXPECT_EQ(error, "a.json: is a loop of symbolic links; name another file");
+}
+
+TEST_F(OutputsTest, AnOpenFileIsWrittenNotReplaced) {
+  std::string error;
+  const int fd = open("a.txt", O_WRONLY | O_CREAT | O_APPEND, 0600);
+  ASSERT_GE(fd, 0);
+  ASSERT_EQ(write(fd, "one\n", 4), 4);
+  const std::string path = "/dev/fd/" + std::to_string(fd);
+  ASSERT_TRUE(CanWriteAll({{"json", path}}, {}, &error)) << error;
+  EXPECT_TRUE(WriteOutputs({{path, "two\n"}}, &error)) << error;
+  ASSERT_EQ(write(fd, "three\n", 6), 6);
+  close(fd);
+  EXPECT_EQ(Read("a.txt"), "one\ntwo\nthree\n");
+  EXPECT_FALSE(CanWriteAll({{"json", path}}, {}, &error));
+  EXPECT_EQ(error, path + ": is not open for writing");
+}
+
+TEST_F(OutputsTest, DevStdoutIsADash) {
+  std::string error;
+  EXPECT_FALSE(
+      CanWriteAll({{"json", "/dev/stdout"}, {"report", "-"}}, {}, &error));
+  EXPECT_THAT(error, HasSubstr("would both go to standard output"));
+  EXPECT_EQ(SummaryStream({"/dev/stdout"}), stderr);
+  ::testing::internal::CaptureStdout();  // Into a file.
+  std::printf("one\n");
+  EXPECT_TRUE(WriteOutputs({{"/dev/stdout", "two\n"}}, &error)) << error;
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "one\ntwo\n");
+}
+
+TEST_F(OutputsTest, PermissionsAreKept) {
+  std::string error;
+  for (const mode_t mode : {0600u, 0664u}) {
+    Write("a.json", "old");
+    ASSERT_EQ(chmod("a.json", mode), 0);
+    ASSERT_TRUE(WriteOutputs({{"a.json", "new"}}, &error)) << error;
+    struct stat status = {};
+    ASSERT_EQ(stat("a.json", &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, mode);
+  }
+  EXPECT_EQ(Read("a.json"), "new");
+}
+
+TEST(OneLine, PrintsOnlyUtf8) {
+  EXPECT_EQ(OneLine("a\nb\x1b[2J caf\xc3\xa9 \xe2\x82\xac"),
+            "a?b?[2J caf\xc3\xa9 \xe2\x82\xac");
+  // Not UTF-8, overlong, a surrogate, cut off, and a control character.
+  EXPECT_EQ(OneLine("\xff \xc0\xaf \xed\xa0\x80 \xe2\x82 \xc2\x9b"),
+            "? ?? ??? ?? ??");
+}
+
+TEST(OneLine, LongTextIsShortened) {
+  const std::string fits(200, 'x');
+  EXPECT_EQ(OneLine("'" + fits.substr(1) + "'"), "'" + fits.substr(1) + "'");
+  EXPECT_EQ(OneLine(fits + "x: is empty"), fits + "...: is empty");
+  const std::string line = OneLine("--guess=" + std::string(9000, ' ') + "bad");
+  EXPECT_LT(line.size(), 2010u);
+  EXPECT_THAT(line, ::testing::StartsWith("--guess="));
+  EXPECT_THAT(line, ::testing::EndsWith("bad"));
 }
 
 }  // namespace

@@ -141,6 +141,8 @@ TEST_F(PairListTest, BadCsvIsNamed) {
                "line 3 has 4 cells, must have 9");
   ExpectBadCsv(head + "a,b,0,nan,0,0,0,0,1\n",
                "line 2: ty is not a finite number");
+  ExpectBadCsv(head + "a,b,0,0,0,0,0,0,1\na,b,0,-1e300,0,0,0,0,1\n",
+               "line 3: ty is '-1e300' m, must be within +-1e9 m");
   ExpectBadCsv(head + "a,b,0,0,0,0,0,0,\n",
                "line 2: qw is not a finite number");
   ExpectBadCsv(head + "a,b,0,0,0,0,0,0,2\n",

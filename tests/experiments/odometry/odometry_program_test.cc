@@ -184,6 +184,22 @@ TEST_F(OdometryProgramTest, ATableGoesOnAsWhatItWas) {
   ASSERT_EQ(tilt.exit_code, 0) << tilt.err;
   EXPECT_THAT(Read("tilt/manifest.json"), HasSubstr("\"protocol\": \"tilt\""));
   EXPECT_THAT(Read("tilt/tilts.csv"), HasSubstr("\ndrive,"));
+
+  // The folder of another run, and one of other files.
+  for (const char* folder : {"run", "drive"}) {
+    ExpectBadInput("quatro_experiment",
+                   {"--protocol=tilt",
+                    "--data=" + PathOf("drive"),
+                    "--output=" + PathOf(folder)},
+                   PathOf(folder),
+                   "a run of --protocol=tilt");
+  }
+  for (const char* folder : {"tilt", "drive"}) {
+    ExpectBadInput("quatro_experiment",
+                   flags("--output=" + PathOf(folder)),
+                   PathOf(folder),
+                   "a run of --protocol=odometry");
+  }
 }
 
 TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {

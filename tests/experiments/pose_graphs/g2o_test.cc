@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "experiments/pose_graphs/pose_graph_worlds.h"
 #include "tests/support/run_program.h"
@@ -69,6 +71,25 @@ TEST_F(G2oTest, ReadsPosesInSpaceWithQuaternionsLastPartLast) {
   EXPECT_EQ(graph->world_from_pose[0].translation, Eigen::Vector3d(1, 2, 3));
 }
 
+TEST_F(G2oTest, FixMayNameSeveralPoses) {
+  const std::string poses = "VERTEX_SE2 3 0 0 0\nVERTEX_SE2 4 1 0 0\n";
+  const auto graph = ReadText("FIX 4 3 \n" + poses);
+  ASSERT_TRUE(graph.has_value()) << error_;
+  EXPECT_EQ(graph->fixed, (std::vector<std::size_t>{1, 0}));
+  ExpectRefused(poses + "FIX 3 5\n", "line 3: there is no pose 5");
+  ExpectRefused(poses + "FIX 3 x\n", "line 3: pose 'x' is not an id");
+  ExpectRefused(poses + "FIX\n", "line 3: pose '' is not an id");
+}
+
+TEST_F(G2oTest, QuaternionsOfTwoDigitsAreNormalized) {
+  const auto graph = ReadText("VERTEX_SE3:QUAT 0 1 2 3 0 0 0.71 0.71\n");
+  ASSERT_TRUE(graph.has_value()) << error_;
+  EXPECT_LE(
+      AngleBetween(graph->world_from_pose[0].rotation, RotationZ(0.5 * M_PI)),
+      1e-14);
+  EXPECT_TRUE(graph->world_from_pose[0].rotation.isUnitary(1e-14));
+}
+
 TEST_F(G2oTest, WhatIsWrittenIsReadBack) {
   for (const char* name : {"manhattan", "sphere"}) {
     GraphWorldOptions options;
@@ -111,12 +132,15 @@ TEST_F(G2oTest, RefusesWhatItDoesNotKnow) {
   ExpectRefused("VERTEX_SE2 0 0 x 0\n", "'x' is not a number");
   ExpectRefused("VERTEX_SE2 0 0 nan 0\n", "'nan' is not finite");
   ExpectRefused("VERTEX_SE2 0 inf 0 0\n", "'inf' is not finite");
+  ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 1e300 0\n",
+                "line 2: '1e300' is too large, must be within +-1e9 m or rad");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 0 1 0 0\n",
                 "line 2: pose 0 was defined before");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n",
                 "line 2: SE2 and SE3 in one file");
   ExpectRefused("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 0\n", "quaternion has length");
-  ExpectRefused("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 1.1\n", "quaternion has length");
+  ExpectRefused("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 1.03\n",
+                "quaternion has length 1.030000, must be 1 to 2 %");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nFIX 1\n", "line 2: there is no pose 1");
   ExpectRefused("VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 0 0 0 1 0 0 1 0 1\n",
                 "line 2: there is no pose 1");
@@ -127,6 +151,8 @@ TEST_F(G2oTest, RefusesWhatItDoesNotKnow) {
                 "line 3: ends before number 6 of 6");
   ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 1 0 0 -1 0 1\n",
                 "line 3: information is not positive definite");
+  ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 1e300 0 0 1 0 1\n",
+                "line 3: '1e300' is too large, must be within +-1e18");
   ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 0 0 0 0 0 0\n",
                 "not positive definite");
 }

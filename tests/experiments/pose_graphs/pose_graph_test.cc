@@ -227,6 +227,25 @@ TEST(PoseGraphProblemTest, HalfTurnsAreNoJump) {
   }
 }
 
+TEST(PoseGraphProblemTest, InfiniteCostIsNoSolution) {
+  for (const LoopLoss loss : {LoopLoss::kNone, LoopLoss::kGnc}) {
+    for (const bool are_fixed : {false, true}) {
+      PoseGraph graph;
+      graph.dimension = 2;
+      graph.ids = {0, 1};
+      graph.world_from_pose.resize(2);
+      graph.world_from_pose[0].translation.x() = 1e300;
+      graph.edges.resize(1);
+      graph.edges[0].from = 0;
+      graph.edges[0].to = 1;
+      graph.edges[0].information = Eigen::Matrix3d::Identity();
+      if (are_fixed) graph.fixed = {0, 1};
+      EXPECT_FALSE(SolvePoseGraph(With(loss), &graph).is_usable);
+      EXPECT_EQ(graph.world_from_pose[0].translation.x(), 1e300);
+    }
+  }
+}
+
 TEST(PoseGraphWorldOptions, ErrorNamesTheFieldThatIsOutOfRange) {
   const auto expect_error = [](const GraphWorldOptions& options,
                                const char* what) {

@@ -7,6 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
+
+#include "experiments/base/flag_files.h"
+#include "tests/support/run_program.h"
 
 DEFINE_double(test_voxel_size, 0.3, "");
 DEFINE_bool(test_explain, false, "");
@@ -14,6 +18,8 @@ DEFINE_uint64(test_seed, 0, "");
 DEFINE_int32(point_floats, 0, "");
 DEFINE_string(method, "", "");
 DEFINE_string(source_rpy_deg, "", "");
+DEFINE_string(options, "", "");
+DEFINE_string(input, "", "");
 
 namespace quatro {
 namespace {
@@ -30,6 +36,46 @@ TEST(BadFlag, TheNearestIsNamed) {
             "all");
   EXPECT_EQ(TellBadFlag({"-nothing_like_it"}),
             "--nothing_like_it: unknown flag; --help lists all");
+}
+
+TEST(BadFlag, FlagsOfAnotherProgramAndOptionsAreTold) {
+  EXPECT_EQ(TellBadFlag({"--correspondences=a.csv"}),
+            "has no flag --correspondences; it is one of quatro_solve's");
+  EXPECT_EQ(TellBadFlag({"--refine=icp"}),
+            "has no flag --refine; it is one of quatro_register's");
+  // As quatro_solve, this has --options and no --source.
+  EXPECT_EQ(TellBadFlag({"--pruning=none"}),
+            "--pruning: is an option, not a flag; write --options=pruning=...; "
+            "--list_options lists all");
+  EXPECT_EQ(TellBadFlag({"--tuple_test=off"}),
+            "has no flag --tuple_test; it is one of quatro_register's options, "
+            "--options=tuple_test=...");
+  // Options with a flag of a similar name.
+  EXPECT_EQ(TellBadFlag({"--source_rpy=0,0,0"}),
+            "--source_rpy: unknown flag, did you mean --source_rpy_deg; "
+            "--help lists all");
+}
+
+TEST(BadFlag, NearestNamesMissAPartOrAFewLetters) {
+  const std::vector<std::string> names = {
+      "num_threads", "voxel_size", "max_yaw_deg", "method"};
+  EXPECT_EQ(NearestName("threads", names), "num_threads");
+  EXPECT_EQ(NearestName("max_yaw", names), "max_yaw_deg");
+  EXPECT_EQ(NearestName("my_method", names), "method");
+  EXPECT_EQ(NearestName("methods", names), "method");
+  EXPECT_EQ(NearestName("voxelsize", names), "voxel_size");
+  EXPECT_EQ(NearestName("confidence", names), "");
+  EXPECT_EQ(NearestName("size", {"voxel_size"}), "");
+}
+
+TEST(NoFlag, AFileWithoutItsFlagAndALongDash) {
+  EXPECT_EQ(TellNoFlag("no_such_file"),
+            "no_such_file: not a flag, must be --name=value; --help lists all");
+  EXPECT_EQ(TellNoFlag("/dev/null"),
+            "/dev/null: not a flag, must be --name=value, for example "
+            "--input=/dev/null; --help lists all");
+  EXPECT_EQ(TellNoFlag("\u2014method=quatro"),
+            "\u2014method=quatro: starts with a long dash, must start with --");
 }
 
 TEST(BadFlag, KnownOnesPass) {
@@ -91,6 +137,51 @@ TEST(SpellAsFlags, OptionsAtTheStartAndKnownOnesAnywhere) {
                                  "point_floats.bin: is empty",
                                  "--point_floats=2, must be 3"}) {
     EXPECT_EQ(SpellAsFlags(same), same);
+  }
+}
+
+using FlagFilesTest = ProgramTest;
+
+TEST_F(FlagFilesTest, LinesTakeThePlaceOfTheFlag) {
+  std::string error;
+  const std::string inner = Write("inner", "\n# 1\n  --test_seed=2 \r\n");
+  const std::string outer =
+      Write("outer", "--test_explain\n--flagfile=" + inner + "\n");
+  using Flags = std::vector<std::string>;
+  EXPECT_EQ(ExpandFlagFiles({"--a=1", "--flagfile=" + outer, "-b"}, &error),
+            (Flags{"--a=1", "--test_explain", "--test_seed=2", "-b"}))
+      << error;
+  EXPECT_EQ(ExpandFlagFiles({"-flagfile", inner + "," + inner}, &error),
+            (Flags{"--test_seed=2", "--test_seed=2"}))
+      << error;
+  EXPECT_EQ(ExpandFlagFiles({"--", "--flagfile=none"}, &error),
+            (Flags{"--", "--flagfile=none"}));
+}
+
+TEST_F(FlagFilesTest, WhatCannotBeReadIsTold) {
+  const auto problem = [](const std::string& flag) {
+    std::string error;
+    EXPECT_FALSE(ExpandFlagFiles({flag}, &error)) << flag;
+    return error;
+  };
+  const std::string self = PathOf("self");
+  Write("self", "--flagfile=" + self + "\n--flagfile=" + self + "\n");
+  EXPECT_EQ(problem("--flagfile=" + self),
+            "--flagfile: " + self +
+                ": more than 100 files to read; a file must not include "
+                "itself");
+  EXPECT_EQ(problem("--flagfile=/dev/zero"),
+            "--flagfile: /dev/zero: is not a regular file");
+  const std::string text = Write("text", "\ntest_seed=1\n");
+  EXPECT_EQ(problem("--flagfile=" + text),
+            "--flagfile: " + text +
+                ": line 2: 'test_seed=1' is not a flag, must be --name=value");
+  EXPECT_EQ(problem("--flagfile"), "--flagfile is empty, must name a file");
+  for (const char* name : {"--fromenv", "--tryfromenv"}) {
+    EXPECT_EQ(problem(name + std::string("=test_seed")),
+              std::string(name) +
+                  " is not supported; write the flags on the command line or "
+                  "in a file, --flagfile");
   }
 }
 

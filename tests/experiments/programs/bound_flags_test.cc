@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 
@@ -96,6 +97,19 @@ TEST_F(BoundFlagsTest, WhatIsWrongIsToldWithWhatToDo) {
 TEST_F(BoundFlagsTest, ALocalMethodTakesAGuessAlone) {
   std::string error;
   EXPECT_TRUE(ParseBoundFlags({"1,2,3,4"}, true, &error)) << error;
+}
+
+TEST_F(BoundFlagsTest, AnAnswerIsNotNestedDeeply) {
+  const auto nested = [this](std::size_t depth) {
+    return Write("answer.json",
+                 R"({"target_from_source": )" + std::string(depth, '[') +
+                     std::string(depth, ']') + "}");
+  };
+  EXPECT_THAT(Problem({nested(99), 5.0}), HasSubstr("has 0 numbers"));
+  for (const std::size_t depth : {101u, 1'000'000u}) {
+    EXPECT_THAT(Problem({nested(depth), 5.0}),
+                HasSubstr("is nested more than 100 levels deep"));
+  }
 }
 
 }  // namespace

@@ -244,6 +244,16 @@ TEST_F(ExperimentProgramTest, FiguresDrawnSinceComeIntoTheReport) {
       HasSubstr("\"figures\":[{\"name\":\"recall\",\"png\":\"Zm9vYmFy\"}]"));
 }
 
+// Otherwise the lock and the rows would be standard input and standard error.
+TEST_F(ExperimentProgramTest, ClosedStreamsDoNotEndUpInTheRows) {
+  std::string command = std::string(QUATRO_BIN_DIR) + "/quatro_experiment";
+  for (const std::string& flag : Flags("run")) command += " '" + flag + "'";
+  ASSERT_EQ(std::system((command + " <&- 2>&- >/dev/null").c_str()), 0);
+  EXPECT_THAT(Read("run/rows.csv"),
+              ::testing::StartsWith(ResultCsvHeader() + "\n"));
+  EXPECT_EQ(Read("run/run.lock"), "");
+}
+
 TEST_F(ExperimentProgramTest, OtherFlagsOrDataAreNotMixedIn) {
   ASSERT_EQ(RunProgram("quatro_experiment", Flags("run")).exit_code, 0);
   ExpectBadInput("quatro_experiment",
@@ -255,6 +265,17 @@ TEST_F(ExperimentProgramTest, OtherFlagsOrDataAreNotMixedIn) {
   Write("pairs.csv", list);
   ExpectBadInput(
       "quatro_experiment", Flags("run"), "belongs to another run", "tasks");
+}
+
+TEST_F(ExperimentProgramTest, FlagsOfOtherProtocolsAreNotIgnored) {
+  ExpectBadInput("quatro_experiment",
+                 Flags("run", "--bins=0-2"),
+                 "--bins cannot be used with --protocol=pairs",
+                 "only with: loop, timing, tilt");
+  ExpectBadInput("quatro_experiment",
+                 {"--protocol=tims", "--outliers=0.5"},
+                 "--outliers cannot be used with --protocol=tims",
+                 "only with: film");
 }
 
 TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {

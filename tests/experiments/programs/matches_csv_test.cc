@@ -91,7 +91,32 @@ TEST_F(MatchesCsvTest, RefusesNamesInAnotherOrder) {
 }
 
 TEST_F(MatchesCsvTest, RefusesAnEmptyFile) {
-  EXPECT_EQ(ErrorOf(""), "is empty; expected lines of sx,sy,sz,tx,ty,tz");
+  for (const char* nothing : {"", "\n \n", "# a comment\n"}) {
+    EXPECT_EQ(ErrorOf(nothing),
+              "is empty or has only comments, must have a line for each match: "
+              "sx,sy,sz,tx,ty,tz");
+  }
+}
+
+TEST_F(MatchesCsvTest, CloudsAndPosesAreToldFromMatches) {
+  std::string error;
+  for (const char* name : {"a.bin", "a.PCD", "a.ply", "a.npy", "a.npy.gz"}) {
+    const std::string path = Write(name, "1,2,3,4,5,6\n");
+    EXPECT_FALSE(ReadMatches(path, &error)) << name;
+    EXPECT_EQ(error,
+              path +
+                  ": is a cloud by its ending, must be text with a line for "
+                  "each match: sx,sy,sz,tx,ty,tz; quatro_register registers "
+                  "clouds of points");
+    EXPECT_FALSE(ReadMatches(PathOf("no_") + name, &error));
+    EXPECT_THAT(error, ::testing::HasSubstr("No such file"));
+  }
+  const std::string columns = " columns, must have 6: sx,sy,sz,tx,ty,tz; ";
+  EXPECT_EQ(
+      ErrorOf("1 2 3\n"),
+      "line 1 has 3" + columns + "quatro_register registers clouds of points");
+  EXPECT_EQ(ErrorOf("1 0 0 0 0 1 0 0 0 0 1 0\n"),
+            "line 1 has 12" + columns + "is this a file of poses?");
 }
 
 TEST_F(MatchesCsvTest, RefusesAnotherNumberOfColumns) {

@@ -114,7 +114,7 @@ TEST(Methods, AllNamesResolveAndSolve) {
                   .norm(),
               0.3)
         << name;
-    EXPECT_THAT(DescribeMethods(), HasSubstr(name + " ")) << name;
+    EXPECT_THAT("\n" + DescribeMatchMethods(), HasSubstr("\n" + name + " "));
   }
 }
 
@@ -232,6 +232,7 @@ TEST(Methods, OdometriesAreListedAndPointToTheirProgram) {
   EXPECT_THAT(OdometryMethodNames(), UnorderedElementsAre("aloam", "suma"));
   for (const std::string& name : OdometryMethodNames()) {
     EXPECT_THAT(DescribeMethods(), HasSubstr("\n" + name + " "));
+    EXPECT_THAT(DescribePairMethods(), Not(HasSubstr("\n" + name + " ")));
     std::string error, pair_error;
     EXPECT_FALSE(FindMatchSolver(name, {}, &error));
     EXPECT_THAT(error, HasSubstr("method " + name + " is an odometry"));
@@ -239,6 +240,8 @@ TEST(Methods, OdometriesAreListedAndPointToTheirProgram) {
     EXPECT_FALSE(FindPairSolver(name, {}, &pair_error));
     EXPECT_EQ(pair_error, error);
   }
+  EXPECT_THAT(DescribeMethods(), Not(HasSubstr("quatro_ins ")));
+  EXPECT_THAT(DescribePairMethods(), HasSubstr("quatro_ins "));
   // Methods that are not built are not listed.
   std::string error;
   EXPECT_FALSE(FindMatchSolver("nothing", {}, &error));
@@ -253,7 +256,8 @@ TEST(Methods, ThoseOfCloudsAreNotOfMatches) {
     EXPECT_FALSE(FindMatchSolver(name, {}, &error)) << name;
     EXPECT_THAT(error, HasSubstr(name + " works on clouds, not on matches"));
     EXPECT_TRUE(FindPairSolver(name, {}, &error)) << name;
-    EXPECT_THAT(DescribeMethods(), HasSubstr(name + " ")) << name;
+    EXPECT_THAT(DescribePairMethods(), HasSubstr("\n" + name + " ")) << name;
+    EXPECT_THAT(DescribeMatchMethods(), Not(HasSubstr("\n" + name + " ")));
   }
   // Those of matches run on clouds, too, but need none.
   for (const std::string& name : MatchMethodNames()) {

@@ -277,7 +277,9 @@ TEST_F(RegisterProgramTest, PointFloatsAreOfABin) {
 }
 
 TEST_F(RegisterProgramTest, UnknownPreset) {
-  ExpectRefusedFlag("--preset=moon", "--preset=moon", "must be auto");
+  ExpectRefusedFlag("--preset=moon",
+                    "--preset=moon, must be one of kitti, paper, ",
+                    "indoor, auto\n");
 }
 
 TEST_F(RegisterProgramTest, UnknownMethod) {
@@ -294,6 +296,16 @@ TEST_F(RegisterProgramTest, UnknownRefinement) {
 
 TEST_F(RegisterProgramTest, StrayArgument) {
   ExpectRefusedFlag("stray", "stray", "not a flag");
+}
+
+TEST_F(RegisterProgramTest, AFileWithoutItsFlag) {
+  const std::string path = WritePoints("a.ply", Points::Random(3, 9));
+  ExpectBadInput(
+      "quatro_register", {path}, "not a flag", "--source=" + path + ";");
+  ExpectBadInput("quatro_register",
+                 {"--source=" + path, path},
+                 "not a flag",
+                 "--target=" + path + ";");
 }
 
 TEST_F(RegisterProgramTest, MissingOutputFolder) {
@@ -313,8 +325,39 @@ TEST_F(RegisterProgramTest, OutputOntoAFolder) {
   }
 }
 
-TEST_F(RegisterProgramTest, OutputOntoADevice) {
-  ExpectRefusedFlag("--json=/dev/null", "/dev/null", "is not a regular file");
+TEST_F(RegisterProgramTest, AFlagOfSolveIsToldAsSuch) {
+  ExpectRefusedFlag("--correspondences=a.csv",
+                    "has no flag --correspondences",
+                    "it is one of quatro_solve's");
+  ExpectRefusedFlag("--tuple_test=off", "--tuple_test", "is an option");
+}
+
+TEST_F(RegisterProgramTest, ListsTheMethodsThatItTakes) {
+  const std::string list =
+      RunProgram("quatro_register", {"--list_methods"}).out;
+  for (const char* method : {"quatro_ins ", "quatro_c2f ", "vgicp "}) {
+    EXPECT_THAT(list, HasSubstr(method));
+  }
+  EXPECT_THAT(list, Not(HasSubstr("aloam")));
+  EXPECT_THAT(list, Not(HasSubstr("suma")));
+}
+
+// Where the vertical cannot come from the scans.
+TEST_F(RegisterProgramTest, AVerticalByScansMustHaveAnEffect) {
+  WriteYard();
+  for (const std::string flag : {"--method=teaser",
+                                 "--method=quatro_single",
+                                 "--preset=paper",
+                                 "--options=max_rung=0",
+                                 "--max_yaw_deg=30"}) {
+    const ProgramRun run = Register({"--gravity=scans", flag});
+    EXPECT_EQ(run.exit_code, 2) << flag;
+    EXPECT_THAT(run.err, HasSubstr("--gravity=scans has no effect here"));
+  }
+  EXPECT_EQ(Register({"--gravity=scans"}).exit_code, 0);
+  // Not asked for: the default of auto.
+  const ProgramRun of_auto = Register({"--preset=auto", "--method=teaser"});
+  EXPECT_NE(of_auto.exit_code, 2) << of_auto.err;
 }
 
 // Too little data
@@ -340,6 +383,16 @@ TEST_F(RegisterProgramTest, ABareFloorIsNotRegistered) {
   WritePoints("target.ply", floor);
   const ProgramRun run = Register({});
   EXPECT_EQ(run.exit_code, 1) << run.out;
+  EXPECT_THAT(run.err, Not(HasSubstr("units")));
+}
+
+TEST_F(RegisterProgramTest, UnitsThatDifferAreHintedAt) {
+  WriteYard();
+  WritePoints("source.ply", 1000.0 * RandomYard(40000, 1));
+  const ProgramRun run = Register({});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("their units may differ; convert both"));
+  EXPECT_EQ(run.err.find("m wide"), run.err.rfind("m wide")) << run.err;
 }
 
 // Two scans of the same place

@@ -6,9 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,6 +34,7 @@ using nlohmann::json;
 using ::testing::AnyOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr double kNoiseBound = 0.3;  // [m], of preset kitti.
@@ -188,7 +194,9 @@ TEST_F(SolveProgramTest, NanNoiseBound) {
 }
 
 TEST_F(SolveProgramTest, UnknownPreset) {
-  ExpectRefusedFlag("--preset=moon", "--preset=moon", "kitti");
+  ExpectRefusedFlag("--preset=moon",
+                    "--preset=moon, must be one of kitti, paper, ",
+                    "indoor\n");
 }
 
 TEST_F(SolveProgramTest, UnknownMethod) {
@@ -221,8 +229,115 @@ TEST_F(SolveProgramTest, JsonOntoAFolder) {
   ExpectRefusedFlag("--json=" + PathOf(""), PathOf(""), "is a directory");
 }
 
-TEST_F(SolveProgramTest, JsonOntoADevice) {
-  ExpectRefusedFlag("--json=/dev/null", "/dev/null", "is not a regular file");
+TEST_F(SolveProgramTest, ADeviceTakesTheJson) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(100, 10).matches);
+  const ProgramRun run = Solve(path, {"--json=/dev/null"});
+  EXPECT_LE(run.exit_code, 1) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const ProgramRun full = Solve(path, {"--json=/dev/full"});
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_THAT(full.err, HasSubstr("/dev/full: could not be written"));
+}
+
+// Names of the flags that a program defines, except those of quatro_solve.
+std::vector<std::string> FlagsThatSolveLacks(const std::string& program) {
+  const auto flags_of = [](const std::string& name) {
+    std::istringstream lines(RunProgram(name, {"--help"}).out);
+    std::set<std::string> flags;
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("    -")) continue;
+      flags.insert(line.substr(5, line.find(' ', 5) - 5));
+    }
+    return flags;
+  };
+  const std::set<std::string> all = flags_of(program);
+  const std::set<std::string> own = flags_of("quatro_solve");
+  std::vector<std::string> missing;
+  std::ranges::set_difference(all, own, std::back_inserter(missing));
+  return missing;
+}
+
+TEST_F(SolveProgramTest, EachFlagOfRegisterAloneIsToldAsSuch) {
+  const std::vector<std::string> flags = FlagsThatSolveLacks("quatro_register");
+  EXPECT_GE(flags.size(), 10u);
+  for (const std::string& flag : flags) {
+    ExpectRefusedFlag("--" + flag + "=1",
+                      "quatro_solve: has no flag --" + flag + ";",
+                      "it is one of quatro_register's\n");
+  }
+}
+
+TEST_F(SolveProgramTest, OptionsAreNoFlags) {
+  ExpectRefusedFlag("--pruning=none", "--pruning", "--options=pruning=...");
+  ExpectRefusedFlag("--tuple_test=off", "has no flag", "quatro_register's");
+}
+
+TEST_F(SolveProgramTest, OptionsThatAreMisspelledOrGivenTwice) {
+  ExpectRefusedFlag("--options=gnc_mu_steps=2",
+                    "no option gnc_mu_steps",
+                    "did you mean gnc_mu_step; --list_options lists all");
+  ExpectRefusedFlag(
+      "--options=mystery=2", "no option mystery;", "--list_options lists all");
+  ExpectRefusedFlag("--options=noise_bound=0.3,seed=1",
+                    "noise_bound = 0.3,seed=1",
+                    "options are separated by semicolons");
+  const std::string path = WriteMatches("a.csv", MakeProblem(20, 1).matches);
+  ExpectBadInput("quatro_solve",
+                 {"--correspondences=" + path,
+                  "--recover=on",
+                  "--options=recover_translation=off"},
+                 "recover_translation",
+                 "is given twice");
+}
+
+TEST_F(SolveProgramTest, OptionsMayHaveBlanks) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(100, 10).matches);
+  const json report =
+      ReportOf(Solve(path, {"--options= pruning = none ; gnc_mu_step=1.5; "}));
+  EXPECT_EQ(report["parameters"]["pruning"], "none");
+  EXPECT_EQ(report["parameters"]["gnc_mu_step"], 1.5);
+}
+
+TEST_F(SolveProgramTest, ListsOptionsAndTheirFlagsApart) {
+  const std::string list = RunProgram("quatro_solve", {"--list_options"}).out;
+  const std::size_t flags = list.find("\nFlags that set one of these options");
+  ASSERT_NE(flags, std::string::npos) << list;
+  EXPECT_THAT(list, StartsWith("Options, for --options="));
+  const std::string options = list.substr(0, flags);
+  for (const char* name : {"\n  pruning ", "\n  num_threads ", "\n  seed "}) {
+    EXPECT_THAT(options, HasSubstr(name));
+  }
+  EXPECT_THAT(options, Not(HasSubstr("\n  --")));
+  for (const char* name :
+       {"\n  --seed ", "\n  --threads (num_threads) ", "\n  --recover "}) {
+    EXPECT_THAT(list.substr(flags), HasSubstr(name));
+  }
+  EXPECT_THAT(list.substr(flags), Not(HasSubstr("pruning")));
+}
+
+TEST_F(SolveProgramTest, ListsTheMethodsThatItTakes) {
+  const std::string list = RunProgram("quatro_solve", {"--list_methods"}).out;
+  EXPECT_THAT(list, HasSubstr("teaser "));
+  for (const char* other : {"aloam", "suma", "gicp", "quatro_c2f"}) {
+    EXPECT_THAT(list, Not(HasSubstr(other)));
+  }
+}
+
+TEST_F(SolveProgramTest, CloudsAreNoMatches) {
+  const std::string path = Write("a.pcd", "# .PCD v0.7\n");
+  ExpectBadInput("quatro_solve",
+                 {"--correspondences=" + path},
+                 path + ": is a cloud by its ending",
+                 "quatro_register registers clouds");
+}
+
+TEST_F(SolveProgramTest, MatchesGiveNoVertical) {
+  ExpectRefusedFlag(
+      "--gravity=scans", "--gravity=scans has no effect", "two clouds");
+  ExpectRefusedFlag(
+      "--options=gravity=scans", "--gravity=scans has no effect", "two clouds");
 }
 
 TEST_F(SolveProgramTest, PictureIntoAMissingFolder) {
@@ -448,6 +563,68 @@ TEST_F(SolveProgramTest, FlagsComeFromAFileToo) {
   EXPECT_EQ(ReportOf(run)["parameters"]["noise_bound"], 0.25);
   EXPECT_EQ(WithoutTimings(run.out),
             WithoutTimings(Solve(path, {"--noise_bound=0.25"}).out));
+}
+
+TEST_F(SolveProgramTest, FlagsInAFileAreChecked) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(20, 1).matches);
+  ExpectBadInput("quatro_solve",
+                 {"--correspondences=" + path,
+                  "--flagfile=" + Write("flags", "--noise_bond=0.25\n")},
+                 "--noise_bond",
+                 "did you mean --noise_bound");
+  ExpectBadInput("quatro_solve",
+                 {"--correspondences=" + path,
+                  "--noise_bound=0.2",
+                  "--flagfile=" + Write("flags", "--noise_bound=0.25\n")},
+                 "--noise_bound",
+                 "is given twice");
+}
+
+// The answer of the shell command, with QUATRO_SOLVE in place of the program.
+int ExitCodeInShell(std::string command) {
+  const std::string name = "QUATRO_SOLVE";
+  command.replace(command.find(name),
+                  name.size(),
+                  std::string(QUATRO_BIN_DIR) + "/quatro_solve");
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(SolveProgramTest, AFileSizeLimitIsAnErrorAndLeavesNothing) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(100, 10).matches);
+  const auto before = Contents();
+  EXPECT_EQ(
+      ExitCodeInShell("ulimit -f 0; QUATRO_SOLVE --correspondences='" + path +
+                      "' --json='" + PathOf("a.json") + "' 2>/dev/null"),
+      2);
+  EXPECT_EQ(Contents(), before);
+}
+
+TEST_F(SolveProgramTest, ClosedStandardOutputIsAnError) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(100, 10).matches);
+  EXPECT_EQ(ExitCodeInShell("QUATRO_SOLVE --correspondences='" + path +
+                            "' <&- >&- 2>&-"),
+            2);
+}
+
+TEST_F(SolveProgramTest, ANameThatIsNotUtf8) {
+  const std::string path =
+      WriteMatches("a\xff.csv", MakeProblem(100, 10).matches);
+  const json report = ReportOf(Solve(path));
+  EXPECT_THAT(report["parameters"]["correspondences"].get<std::string>(),
+              EndsWith("a\uFFFD.csv"));
+}
+
+TEST_F(SolveProgramTest, JsonOntoTheGuess) {
+  const std::string path = WriteMatches("a.csv", MakeProblem(20, 1).matches);
+  const std::string guess = Write("guess.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  ExpectBadInput("quatro_solve",
+                 {"--correspondences=" + path,
+                  "--guess=" + guess,
+                  "--max_yaw_deg=20",
+                  "--json=" + guess},
+                 guess,
+                 "is also an input");
 }
 
 TEST_F(SolveProgramTest, HelpNamesTheFlags) {

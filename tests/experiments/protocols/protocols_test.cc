@@ -164,6 +164,41 @@ TEST(FindLoopsTest, StandingStillIsNone) {
   EXPECT_GT(FindLoops(data, {0.0, 2.0}, options).size(), 100000u);
 }
 
+// Used frames are the first one and each at least the spacing after the last
+// used one; the loops are all those between used frames.
+TEST(FindLoopsTest, SpacingSkipsFrames) {
+  const SequenceData data = Rounds(400, 15.0, 0.6);
+  const DistanceBin bin = {2.0, 5.0};
+  LoopOptions options;
+  const std::vector<Loop> all = FindLoops(data, bin, options);
+  options.min_pair_spacing = 2.0;
+  std::set<int> used;
+  double path = 0.0;
+  double last_used = -1e9;
+  const Eigen::Vector3d* last = nullptr;
+  for (const auto& [frame, pose] : data.world_from_sensor) {
+    if (last != nullptr) path += (pose.translation - *last).norm();
+    last = &pose.translation;
+    if (path - last_used < options.min_pair_spacing) continue;
+    last_used = path;
+    used.insert(frame);
+  }
+  EXPECT_NEAR(static_cast<double>(used.size()), 100.0, 2.0);  // Every fourth.
+  std::set<std::pair<int, int>> expected;
+  for (const Loop& loop : all) {
+    if (used.contains(loop.source) && used.contains(loop.target)) {
+      expected.insert({loop.source, loop.target});
+    }
+  }
+  std::set<std::pair<int, int>> found;
+  for (const Loop& loop : FindLoops(data, bin, options)) {
+    found.insert({loop.source, loop.target});
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_GT(found.size(), 20u);
+  EXPECT_LT(found.size(), all.size() / 10);
+}
+
 TEST(SelectLoopPairsTest, KeepsToBinsGapAndNumber) {
   const SequenceData data = Rounds(900, 40.0, 0.8);
   LoopPairOptions options;
@@ -328,6 +363,10 @@ TEST(SelectLoopPairsTest, InvalidOptionsAreNamed) {
   options.loop.min_path = std::nan("");
   EXPECT_FALSE(SelectLoopPairs({}, options, &error));
   EXPECT_THAT(error, HasSubstr("min_path = nan"));
+  options = {};
+  options.loop.min_pair_spacing = -1.0;
+  EXPECT_FALSE(SelectLoopPairs({}, options, &error));
+  EXPECT_THAT(error, HasSubstr("min_pair_spacing = -1"));
 }
 
 TEST(SelectIntervalPairsTest, AreLaterFramesOntoEarlierOnes) {

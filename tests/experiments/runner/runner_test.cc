@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -15,6 +16,7 @@
 
 #include "experiments/runner/run_folder.h"
 #include "experiments/runner/run_problem.h"
+#include "experiments/runner/stop_signal.h"
 #include "features/base/file.h"
 #include "features/io/cloud_io.h"
 #include "robust/estimators/quatro.h"
@@ -481,6 +483,27 @@ TEST(RunMethodsTest, NamesAreOfTheRegistryAndComeOnce) {
   methods.names = {"aloam"};
   EXPECT_FALSE(methods.IsValid(&error));
   EXPECT_THAT(error, HasSubstr("odometry"));
+}
+
+// The exit code of a process that is sent this signal; 0 if it goes on unasked.
+int ExitCodeAfter(int signal, bool is_ignored) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (is_ignored) std::signal(signal, SIG_IGN);
+    ListenForStop();
+    std::raise(signal);
+    _exit(WasAskedToStop() ? 1 : 0);
+  }
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+TEST(StopSignalTest, AClosedTerminalStopsARunUnlessItIsIgnored) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    EXPECT_EQ(ExitCodeAfter(signal, /*is_ignored=*/false), 1) << signal;
+  }
+  EXPECT_EQ(ExitCodeAfter(SIGHUP, /*is_ignored=*/true), 0);  // nohup
 }
 
 }  // namespace

@@ -309,6 +309,23 @@ TEST_F(SimulateSequenceTest, ReplacesASequenceOnlyIfAsked) {
   EXPECT_FALSE(fs::exists(folder_ / "velodyne" / "000001.bin"));
 }
 
+TEST_F(SimulateSequenceTest, OtherFilesBesideTheScansAreNotRemoved) {
+  ASSERT_TRUE(Simulate()) << error_;
+  options_.overwrite = true;
+  for (const char* name : {"velodyne/0.bin",
+                           "velodyne/000000.bin.bak",
+                           "oxts/data/notes.txt",
+                           "oxts/timestamps.txt",
+                           "sensors/map.pcd"}) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << "text";
+    EXPECT_FALSE(Simulate()) << name;
+    EXPECT_THAT(error_, HasSubstr("holds '" + std::string(name) + "'"));
+    EXPECT_TRUE(fs::remove(folder_ / name)) << name;
+  }
+  EXPECT_TRUE(Simulate()) << error_;
+}
+
 TEST_F(SimulateSequenceTest, FailsInOneLineWhereNothingCanBeWritten) {
   std::ofstream(folder_.string()) << "a file";
   EXPECT_FALSE(Simulate());

@@ -88,8 +88,12 @@ TEST(SuccessTable, OfOtherSetsHasNoQuotedRows) {
   EXPECT_EQ(table.rows.size(), 1u);
   const Table lc = MakeSuccessTable(
       {In(ResultOff("a", "1", 0.2, 1.0), "all")}, {}, PublishedKittiLc());
-  EXPECT_EQ(lc.rows.size(), 7u);
+  EXPECT_EQ(lc.rows.size(), 8u);
   EXPECT_THAT(lc.rows[3], ElementsAre("FPFH+Quatro", "quoted", "79.70"));
+  const Table bins = MakeSuccessTable(
+      {In(ResultOff("a", "1", 0.2, 1.0), "20-30 m")}, {}, PublishedKittiLc());
+  EXPECT_EQ(bins.rows.size(), 6u);
+  EXPECT_THAT(bins.rows[5], ElementsAre("G3Reg", "quoted", "71.80"));
 }
 
 TEST(SuccessTable, IntervalsAreWilsons) {
@@ -446,8 +450,14 @@ TEST(RunTables, KittiLcIsByBinAndOfItsOwnLimit) {
   EXPECT_THAT(
       lc->table.rows.front(),
       ElementsAre("a", "measured", "100.00", "0.00", "100.00", "66.67"));
-  EXPECT_THAT(lc->table.rows.back(),
-              ElementsAre("G3Reg", "quoted", "", "", "", "86.50"));
+  EXPECT_THAT(
+      lc->table.rows.back(),
+      ElementsAre("G3Reg", "quoted", "98.60", "93.10", "71.80", "86.50"));
+  const RunTable* const far = Find(tables, "kitti_lc_far");
+  ASSERT_NE(far, nullptr);
+  EXPECT_THAT(far->table.columns, ElementsAre("method", "origin", "02"));
+  EXPECT_THAT(far->table.rows,
+              ElementsAre(ElementsAre("a", "measured", "100.00")));
   results.pop_back();
   EXPECT_EQ(Find(MakeRunTables(results, {}), "kitti_lc"), nullptr);
 }

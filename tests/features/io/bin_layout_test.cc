@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -238,6 +239,47 @@ TEST(FindBinLayout, RefusesWiderPointsAndHalfPoints) {
   EXPECT_THAT(ErrorOf(five.substr(0, five.size() - 3)),
               HasSubstr("is not a multiple of 16"));
   EXPECT_THAT(ErrorOf(five, 3), HasSubstr("is not a multiple of 12"));
+}
+
+// The size of 48 points of 3 floats is that of 36 points of 4.
+TEST(FindBinLayout, FewPointsOfAnotherLayoutAreNotReadAsKittis) {
+  const std::vector<Row> street = Street(3200, false, 1);
+  const auto some = [&](std::ptrdiff_t num_points) {
+    return std::vector<Row>(street.begin(), street.begin() + num_points);
+  };
+  const std::string too_few =
+      "has too few points to tell the layout; set point_floats";
+  EXPECT_EQ(ErrorOf(AsFloats(some(48), 3)), too_few);
+  EXPECT_EQ(ErrorOf(AsFloats(some(40), 5)), too_few);
+  EXPECT_EQ(ErrorOf(AsFloats(some(40), 6)), too_few);
+  std::string error;
+  EXPECT_EQ(FindBinLayout(AsFloats(some(48), 3), 3, &error)->num_values, 3);
+  for (const std::ptrdiff_t num_points : {15, 30, 48, 60}) {
+    ExpectLayout(AsFloats(some(num_points), 4), 4, ScalarType::kFloat32);
+  }
+  EXPECT_THAT(ErrorOf(AsDoubles(some(24), 3)),
+              HasSubstr("The file is probably not float32"));
+}
+
+// Negative int32 are NaNs as float32, and positive ones are tiny.
+TEST(FindBinLayout, IntegersAreNotFloat32) {
+  for (const int num_points : {16, 48, 3200}) {
+    std::string bytes;
+    for (const Row& row : Street(num_points, true, 1)) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto millimeters = static_cast<std::int32_t>(1000.0 * row[i]);
+        AppendLittleEndian(std::bit_cast<float>(millimeters), &bytes);
+      }
+    }
+    for (const int num_values : {0, 4}) {
+      EXPECT_THAT(ErrorOf(bytes, num_values), HasSubstr("is not float32"));
+    }
+  }
+  // Integers behind the coordinates do not matter if the layout is given.
+  std::vector<Row> rows = Street(3200, true, 1);
+  for (Row& row : rows) row.resize(9, 1e-42);
+  std::string error;
+  EXPECT_TRUE(FindBinLayout(AsFloats(rows, 9), 9, &error)) << error;
 }
 
 TEST(ParseKittiBin, ReadsTheFirstFourNumbers) {

@@ -1026,16 +1026,34 @@ TEST_F(CloudIoWriteErrorTest, WhatCouldNotBeReadBack) {
             "points: there are none");
   PointCloud cloud = RandomCloud(3, true);
   cloud.points(1, 2) = 1e300;
-  for (const char* name : {"a.bin", "a.pcd"}) {
-    EXPECT_EQ(WriteErrorOf(cloud, PathOf(name)),
-              "point 2: is beyond the range of float32");
-  }
+  EXPECT_EQ(WriteErrorOf(cloud, PathOf("a.bin")),
+            "point 2: is beyond the range of float32");
   cloud.points(1, 2) = kNan;
   EXPECT_EQ(WriteErrorOf(cloud, PathOf("a.ply")), "points: not all are finite");
   cloud = RandomCloud(3, true);
   cloud.intensity.conservativeResize(2);
   EXPECT_EQ(WriteErrorOf(cloud, PathOf("a.ply")),
             "intensity: 2 numbers for 3 points");
+}
+
+// Float32 has steps of 0.5 m there.
+TEST_F(CloudIoWriteErrorTest, UtmCoordinatesAreNotRounded) {
+  PointCloud cloud = RandomCloud(100, true);
+  cloud.points.row(0).array() += 465000.0;
+  cloud.points.row(1).array() += 5428000.0;
+  std::string error;
+  ASSERT_TRUE(WriteCloud(cloud, PathOf("a.pcd"), &error)) << error;
+  const auto read = ReadCloud(PathOf("a.pcd"), &error);
+  ASSERT_TRUE(read.has_value()) << error;
+  EXPECT_EQ(read->points, cloud.points);
+  EXPECT_EQ(read->intensity, cloud.intensity);
+  cloud.points(0, 0) = 1.0;
+  EXPECT_EQ(WriteErrorOf(cloud, PathOf("a.bin")),
+            "point 0: float32 keeps only 0.5 m at these coordinates; write a "
+            ".ply or .pcd");
+  // Rounded already.
+  cloud.points = cloud.points.cast<float>().cast<double>().eval();
+  EXPECT_TRUE(WriteCloud(cloud, PathOf("a.bin"), &error)) << error;
 }
 
 TEST_F(CloudIoTest, ReplacesAFileAndLeavesNoOther) {
@@ -1217,6 +1235,26 @@ TEST_F(CloudIoTest, ANumPyArrayNamedBinIsNotRead) {
   EXPECT_EQ(ErrorOf("a.csv", npy), "is a NumPy array; name it .npy");
   EXPECT_EQ(ErrorOf("a.npy", "PK\x03\x04" + npy),
             "is a zip archive; unpack it");  // As an .npz is.
+}
+
+// Their headers and data, of a multiple of 16 bytes, would be points.
+TEST_F(CloudIoTest, BinaryPlyAndPcdNamedBinAreNotRead) {
+  const std::string ply = Ply(
+      "binary_little_endian", std::string("element vertex 99\n") + kXyz, "");
+  const std::string pcd = PcdXyz("99", "binary");
+  for (const auto& [header, reason] :
+       {std::pair(ply, "is a PLY file; name it .ply"),
+        std::pair(pcd, "is a PCD file; name it .pcd"),
+        std::pair(pcd.substr(pcd.find("VERSION")),
+                  "is a PCD file; name it .pcd"),
+        std::pair(std::string("\x1f\x8b\x08"),
+                  "is gzip-compressed; add .gz to its name, or run gunzip")}) {
+    std::string bytes = header;
+    for (int i = 1; i <= 3 * 99; ++i)
+      bytes += Little({0.1f * static_cast<float>(i)});
+    bytes.resize(bytes.size() / 16 * 16);
+    EXPECT_EQ(ErrorOf("a.bin", bytes), reason);
+  }
 }
 
 TEST_F(CloudIoTest, TheEndingsOfTextAreOneFormat) {

@@ -5,9 +5,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -24,6 +27,29 @@ using std::string_view_literals::operator""sv;
 constexpr std::string_view kTwoPoints =
     "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\x03\x33\x54\x30\x52\x30\xe6"
     "\x32\x51\x30\x55\x30\xe3\x02\x00\x02\xb4\x5b\xfb\x0c\x00\x00\x00"sv;
+// Nothing, by gzip -n; and "1\n", by gzip -n | gzip -n.
+constexpr std::string_view kEmpty =
+    "\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x03\x00\x00\x00\x00\x00"
+    "\x00\x00\x00\x00"sv;
+constexpr std::string_view kTwice =
+    "\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x93\xef\xe6\x60\x00\x03"
+    "\x66\xe3\x27\x4c\x0c\xc1\x7f\x02\xd3\x99\x80\x7c\x00\x4b\xb7\x1a"
+    "\x5f\x16\x00\x00\x00"sv;
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define QUATRO_TEST_HAS_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define QUATRO_TEST_HAS_SANITIZER
+#endif
+#ifdef QUATRO_TEST_HAS_SANITIZER
+constexpr bool kHasSanitizer = true;
+#else
+constexpr bool kHasSanitizer = false;
+#endif
+
 constexpr char kText[] = "1 2 3\n4 5 6\n";
 
 bool HasZlib() {
@@ -76,6 +102,35 @@ TEST(Gunzip, RefusesWhatIsCutOffDamagedOrNotGzip) {
             "is not gzip-compressed; remove .gz from its name");
   EXPECT_EQ(ErrorOf(std::string(kTwoPoints) + "1 2 3\n"),
             "the gzip data are damaged; repeat the download");
+}
+
+TEST(Gunzip, RefusesNoDataAndDataCompressedTwice) {
+  if (!HasZlib()) GTEST_SKIP() << "needs zlib";
+  EXPECT_EQ(ErrorOf(kEmpty),
+            "is gzip-compressed, but contains no data; compress the file "
+            "again");
+  EXPECT_EQ(ErrorOf(kTwice), "is gzip-compressed twice; run gunzip once");
+}
+
+// The decompressed data need 256 MB at once.
+TEST(Gunzip, SaysThatMemoryIsExhausted) {
+  if (!HasZlib()) GTEST_SKIP() << "needs zlib";
+  if (kHasSanitizer) GTEST_SKIP() << "a sanitizer needs all addresses";
+  const std::string bytes = std::string(kTwoPoints) + std::string(64 << 20, 0);
+  rlimit previous = {};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &previous), 0);
+  std::size_t num_pages = 0;
+  std::ifstream("/proc/self/statm") >> num_pages;
+  ASSERT_GT(num_pages, 0u);
+  rlimit limit = previous;
+  limit.rlim_cur =
+      num_pages * static_cast<std::size_t>(getpagesize()) + (64 << 20);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  std::string error;
+  const bool is_read = Gunzip(bytes, &error).has_value();
+  setrlimit(RLIMIT_AS, &previous);
+  EXPECT_FALSE(is_read);
+  EXPECT_EQ(error, "the decompressed data do not fit in memory");
 }
 
 TEST(Gunzip, CloudsOfEveryFormatAreRead) {

@@ -95,7 +95,7 @@ TEST(ConsensusPose, SaysWhyThereIsNoPose) {
   const Points one = Points::Ones(3, 1);
   const PoseSummary few = SolveConsensusPose(one, one, {});
   EXPECT_EQ(few.termination, PoseTermination::kInsufficient);
-  EXPECT_THAT(few.message, HasSubstr("no two of 1 matches"));
+  EXPECT_THAT(few.message, HasSubstr("no three of 1 matches"));
   ConsensusPoseOptions options;
   options.noise_bound = 0.0;
   const PoseSummary invalid = SolveConsensusPose(one, one, options);

@@ -69,6 +69,47 @@ bool IsNear(const Rigid3& a, const Rigid3& b) {
          (a.translation - b.translation).norm() < 0.5;
 }
 
+// A proposal's own ratio is that of its pose, if no tilt is allowed for.
+TEST(ConsensusLogLikelihoodRatio, IsThatOfTheProposal) {
+  const Problem problem =
+      MakeProblem({RotationZ(1.0), {12.0, -7.0, 0.5}}, 40, 1000, 3);
+  ConsensusSearchOptions options;
+  options.max_tilt = 0.0;
+  options.max_num_proposals = 20;
+  const std::vector<Proposal> proposals = Search(problem, options);
+  ASSERT_GT(proposals.size(), 5u);
+  const auto ratio_of = [&](const Eigen::Matrix3d& turn_source,
+                            const Proposal& proposal,
+                            const ConsensusSearchOptions& by) {
+    const Rigid3& pose = proposal.target_from_source;
+    return ConsensusLogLikelihoodRatio(
+        turn_source * problem.source,
+        problem.target,
+        {pose.rotation * turn_source.transpose(), pose.translation},
+        by);
+  };
+  // The medians of rotated points are others.
+  options.source_center = Eigen::Vector3d(1.0, 2.0, 0.0);
+  options.target_center = Eigen::Vector3d(-1.0, 0.0, 1.0);
+  for (const Proposal& proposal : Search(problem, options)) {
+    EXPECT_GT(proposal.log_likelihood_ratio, 0.0);
+    // Single precision may move a match across the bound.
+    EXPECT_NEAR(ratio_of(Eigen::Matrix3d::Identity(), proposal, options),
+                proposal.log_likelihood_ratio,
+                2.0);
+  }
+  // A tilt of the source that the pose takes back changes nothing.
+  const Eigen::Matrix3d tilt =
+      Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  ConsensusSearchOptions tilted = options;
+  tilted.source_center = tilt * *options.source_center;
+  for (const Proposal& proposal : proposals) {
+    EXPECT_NEAR(ratio_of(tilt, proposal, tilted),
+                ratio_of(Eigen::Matrix3d::Identity(), proposal, options),
+                1e-3 * proposal.log_likelihood_ratio);
+  }
+}
+
 class ConsensusSearchSeed : public ::testing::TestWithParam<int> {};
 
 TEST_P(ConsensusSearchSeed, FindsOnePercentOfTrueMatches) {

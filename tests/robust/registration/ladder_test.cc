@@ -86,6 +86,50 @@ TEST(Ladder, RegistersWhatTheEstimatorAloneDoesNot) {
   EXPECT_TRUE(stages.contains("search"));
 }
 
+// The inliers of the clouds matched again near the pose are enough for a
+// covariance, and their share is evidence.
+TEST(Ladder, MatchesAgainNearASearchedPose) {
+  RegistrationOptions options;
+  const RegistrationSummary guided = RegisterFar(options);
+  ASSERT_TRUE(guided.verdict.geometry);
+  ASSERT_TRUE(guided.verdict.geometry->search);
+  const SearchEvidence& search = *guided.verdict.geometry->search;
+  EXPECT_GT(search.num_guided_inliers, guided.verdict.num_inliers);
+  EXPECT_GT(search.num_guided_inliers, search.num_guided_matches / 20);
+  EXPECT_EQ(search.is_first, guided.rung == 1);
+  EXPECT_EQ(guided.verdict.features.back().name, "first_search");
+  options.search.guided_matching = false;
+  const RegistrationSummary without = RegisterFar(options);
+  ASSERT_TRUE(without.verdict.geometry);
+  EXPECT_FALSE(without.verdict.geometry->search);
+  EXPECT_EQ(without.target_from_source()->ToMatrix(),
+            guided.target_from_source()->ToMatrix());
+  // More inliers, less variance.
+  ASSERT_TRUE(guided.solution.covariance->covariance_at_center);
+  ASSERT_TRUE(without.solution.covariance->covariance_at_center);
+  EXPECT_LT(guided.solution.covariance->covariance_at_center->trace(),
+            without.solution.covariance->covariance_at_center->trace());
+  // The estimator's own pose is not searched for.
+  RegistrationOptions single;
+  single.method = "quatro_single";
+  const RegistrationSummary own = RegisterFar(single);
+  ASSERT_TRUE(own.verdict.geometry);
+  EXPECT_FALSE(own.verdict.geometry->search);
+}
+
+// The estimator's pose of a few inliers is polished by the surfaces.
+TEST(Ladder, ASearchedPoseIsAsAccurateAsTheSurfaces) {
+  const RegistrationSummary summary = RegisterFar({});
+  ASSERT_TRUE(summary.target_from_source());
+  const Rigid3& truth = *FarPair().true_target_from_source;
+  EXPECT_LT(
+      (summary.target_from_source()->translation - truth.translation).norm(),
+      0.1);
+  EXPECT_LT(
+      AngleBetween(summary.target_from_source()->rotation, truth.rotation),
+      0.005);
+}
+
 TEST(Ladder, ThreadsChangeNoBit) {
   const RegistrationSummary one = RegisterFar({});
   RegistrationOptions options;
@@ -125,16 +169,18 @@ TEST(Ladder, WorksBehindTheDoor) {
 }
 
 TEST(Ladder, IsNotClimbedWithoutNeed) {
-  // Nothing is asked for.
-  RegistrationOptions options;
-  options.verdict.min_probability = 0.0;
-  RegistrationSummary summary = RegisterFar(options);
-  if (summary.verdict.IsRegistered()) {
-    EXPECT_EQ(summary.rung, 0);
-    EXPECT_THAT(summary.candidates, IsEmpty());
-  }
+  PairSetOptions near;
+  near.world = WorldKind::kCrossing;
+  near.max_distance = 3.0;
+  std::string error;
+  const auto pair = SimulateSetPair(near, 0, &error);
+  ASSERT_TRUE(pair) << error;
+  RegistrationSummary summary = Register(pair->source, pair->target, {});
+  EXPECT_TRUE(summary.verdict.IsRegistered());
+  EXPECT_EQ(summary.rung, 0);
+  EXPECT_THAT(summary.candidates, IsEmpty());
   // The estimator's answer is all that is wanted.
-  options = {};
+  RegistrationOptions options;
   options.search.max_rung = 0;
   summary = RegisterFar(options);
   EXPECT_FALSE(summary.verdict.IsRegistered());
@@ -233,6 +279,9 @@ TEST(Ladder, TriesScalesUntilOneIsRegistered) {
   const RegistrationSummary summary = RegisterFar(options);
   EXPECT_TRUE(summary.verdict.IsRegistered());
   EXPECT_EQ(summary.scale_factor, 2.0);
+  // The tolerance is that of the clouds.
+  EXPECT_EQ(summary.verdict.tolerance.translation,
+            ToleranceOf(options.noise_bound).translation);
   ExpectTrue(summary.target_from_source());
   const RegistrationSummary usual = RegisterFar({});
   EXPECT_EQ(summary.target_from_source()->ToMatrix(),

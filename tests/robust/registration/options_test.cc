@@ -365,6 +365,7 @@ const std::multimap<std::string, std::string>& Needed() {
       {"num_aligned", "min_probability=1"},
       {"search_max_tilt", "min_probability=1"},
       {"bound_factor", "min_probability=1"},
+      {"guided_matching", "min_probability=1"},
       {"refine_max_translation", "refine=gicp"},
       {"refine_max_rotation", "refine=gicp"},
       {"ins_mode", "source_rpy=0.01,0.02,0"},

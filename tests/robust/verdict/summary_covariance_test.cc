@@ -27,7 +27,7 @@ namespace {
 constexpr double kNoiseBound = 0.3;  // [m]
 
 PoseSummary WithCovariance(const KnownProblem& problem, PoseSummary summary) {
-  AddCovariance(problem.source, problem.target, kNoiseBound, {}, &summary);
+  AddCovariance(problem.source, problem.target, kNoiseBound, {}, {}, &summary);
   return summary;
 }
 

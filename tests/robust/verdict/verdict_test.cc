@@ -201,6 +201,40 @@ TEST(Judge, TakesTheCloudsIntoAccount) {
   EXPECT_THAT(judge(bad).reason, HasSubstr("overlap as well"));
 }
 
+// The paper's criterion at the noise bound of preset kitti.
+TEST(ToleranceOf, ScalesWithTheNoiseBound) {
+  EXPECT_NEAR(ToleranceOf(0.3).translation, 2.0, 1e-12);
+  EXPECT_NEAR(ToleranceOf(0.3).rotation, M_PI / 18.0, 1e-12);
+  EXPECT_NEAR(ToleranceOf(0.006).translation, 0.04, 1e-12);
+  EXPECT_EQ(ToleranceOf(0.006).rotation, ToleranceOf(0.3).rotation);
+}
+
+TEST(Judge, MoreInliersNearASearchedPoseNeverLowerItsProbability) {
+  const KnownProblem problem =
+      MakeMatchedProblem({.num_inliers = 15, .num_outliers = 100}, /*seed=*/13);
+  GeometricEvidence evidence;
+  evidence.structure_overlap = 0.2;
+  evidence.free_space = {3, 97};
+  evidence.weakest_share = 0.3;
+  evidence.rival_free_space = {30, 70};
+  evidence.rival.overlap = 0.2;
+  evidence.rival.rival_overlap = 0.1;
+  const auto probability_of = [&](Eigen::Index num_inliers, bool is_first) {
+    evidence.search = SearchEvidence{1000, num_inliers, is_first};
+    const Verdict verdict = Judge(problem.source,
+                                  problem.target,
+                                  TruthOf(problem),
+                                  kNoiseBound,
+                                  evidence,
+                                  {});
+    return verdict.probability;
+  };
+  EXPECT_GT(probability_of(50, true), probability_of(20, true));
+  EXPECT_GT(probability_of(20, true), probability_of(0, true));
+  EXPECT_EQ(probability_of(500, true), probability_of(100, true));
+  EXPECT_GT(probability_of(50, true), probability_of(50, false));
+}
+
 // Points distributed as in scans: near a plane, and dense near the sensor.
 Points ScanLikePoints(Eigen::Index n, Random* random) {
   Points points(3, n);
