@@ -32,12 +32,14 @@ void RefuseMasked(const py::object& given, const std::string& name) {
                         name + ".mask.any(axis=1)]");
 }
 
-// The nearest rotation, or nullopt if the matrix is not nearly one.
+// The nearest rotation, or nullopt if the matrix is not nearly one. A matrix
+// that is a rotation up to rounding is returned unchanged.
 std::optional<Eigen::Matrix3d> NearestRotationTo(
     const Eigen::Matrix3d& matrix) {
   if (!matrix.isUnitary(kRotationTolerance) || matrix.determinant() < 0.0) {
     return std::nullopt;
   }
+  if (matrix.isUnitary(1e-12)) return matrix;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
       matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();

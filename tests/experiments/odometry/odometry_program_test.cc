@@ -106,7 +106,7 @@ TEST_F(OdometryProgramTest, IntervalAndFramesPickTheScans) {
 
 TEST_F(OdometryProgramTest, MostlyLostIsNotVouchedFor) {
   for (const char* name : {"0.bin", "1.bin", "2.bin"}) {
-    Write(name, std::string(160, '\1'));
+    Write(name, std::string(160, '\xc1'));
   }
   const ProgramRun run =
       RunProgram("quatro_odometry", {"--input=" + PathOf(""), "--method=suma"});

@@ -364,7 +364,7 @@ TEST_F(RunTasksTest, AnOwnMethodStandsBesideOurs) {
            return summary;
          };
        }}};
-  methods_.names = {"quatro", "same", "anywhere"};
+  methods_.names = {"quatro_single", "same", "anywhere"};
   const TaskOutcome outcome = RunTask(tasks_[0], methods_);
   const std::vector<PairResult>& results = outcome.results;
   ASSERT_EQ(results.size(), 3u) << outcome.note;

@@ -293,7 +293,7 @@ TEST_F(ArcConsensusTest, NoMatchesOrOneAreNoAnswer) {
         problem_.source.leftCols(n), problem_.target.leftCols(n), {});
     ExpectNoAnswer(summary, PoseTermination::kInsufficient);
     EXPECT_EQ(summary.num_matches, n);
-    EXPECT_THAT(summary.message, HasSubstr("needs two matches"));
+    EXPECT_THAT(summary.message, HasSubstr("needs two consistent matches"));
   }
 }
 
@@ -347,7 +347,7 @@ TEST_F(ArcConsensusTest, NoConsistentPairIsNoAnswer) {
   const PoseSummary summary = Solve(problem);
   ExpectNoAnswer(summary, PoseTermination::kInsufficient);
   EXPECT_EQ(summary.num_tims, 0);
-  EXPECT_THAT(summary.message, HasSubstr("of 41 no two"));
+  EXPECT_THAT(summary.message, HasSubstr("none were found among 41 matches"));
 }
 
 TEST_F(ArcConsensusTest, PointsThatAreNotFiniteAreRefused) {
