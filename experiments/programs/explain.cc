@@ -246,6 +246,12 @@ std::string ExplainEvidence(const Json& report) {
             "other pose has an overlap of " +
             Percent(geometry["rival_overlap"]) + ", compared with " +
             Percent(geometry["coarse_overlap"]));
+    if (geometry["guided_matches"].is_number()) {
+      text += Paragraph("matched again",
+                        Number(geometry["guided_inliers"]) + " of " +
+                            Number(geometry["guided_matches"]) +
+                            " matches near the pose are inliers");
+    }
   }
   return text;
 }

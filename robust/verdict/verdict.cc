@@ -169,6 +169,11 @@ Verdict Judge(const PointsRef& source,
     std::ostringstream text;
     text << ". " << Percent(geometry->structure_overlap)
          << " % of the structure overlaps";
+    if (geometry->search) {
+      text << ", and " << geometry->search->num_guided_inliers << " of "
+           << geometry->search->num_guided_matches
+           << " guided matches are inliers";
+    }
     verdict.reason += text.str();
   }
   if (!verdict.IsRegistered()) {

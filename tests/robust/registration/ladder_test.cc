@@ -98,6 +98,10 @@ TEST(Ladder, MatchesAgainNearASearchedPose) {
   EXPECT_GT(search.num_guided_inliers, search.num_guided_matches / 20);
   EXPECT_EQ(search.is_first, guided.rung == 1);
   EXPECT_EQ(guided.verdict.features.back().name, "first_search");
+  EXPECT_THAT(guided.verdict.reason,
+              HasSubstr(std::to_string(search.num_guided_inliers) + " of " +
+                        std::to_string(search.num_guided_matches) +
+                        " guided matches are inliers"));
   options.search.guided_matching = false;
   const RegistrationSummary without = RegisterFar(options);
   ASSERT_TRUE(without.verdict.geometry);
