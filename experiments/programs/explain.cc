@@ -247,7 +247,7 @@ std::string ExplainEvidence(const Json& report) {
             Percent(geometry["rival_overlap"]) + ", compared with " +
             Percent(geometry["coarse_overlap"]));
     if (geometry["guided_matches"].is_number()) {
-      text += Paragraph("matched again",
+      text += Paragraph("guided",
                         Number(geometry["guided_inliers"]) + " of " +
                             Number(geometry["guided_matches"]) +
                             " matches near the pose are inliers");
