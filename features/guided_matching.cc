@@ -45,7 +45,8 @@ std::vector<std::int32_t> NearestGuided(const DescribedCloud& from,
           !IsDescribed(to, j)) {
         continue;
       }
-      const float distance = (descriptor - to.descriptors->col(j)).squaredNorm();
+      const float distance =
+          (descriptor - to.descriptors->col(j)).squaredNorm();
       if (distance < best) {
         best = distance;
         found = static_cast<std::int32_t>(j);
