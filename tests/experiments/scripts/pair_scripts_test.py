@@ -4,7 +4,9 @@
 """experiments/scripts/run_pairs.py, compare_methods.py, list_wrong_pairs.py and
 calibrate_verdict.py against a stand-in for quatro_register; what compare_kitti.py
 makes of its measurements."""
+import contextlib
 import csv
+import io
 import json
 import math
 import os
@@ -405,6 +407,39 @@ class CalibrationTest(unittest.TestCase):
         # At the minimum the fitted rates equal the observed ones.
         fitted = self.calibration.probability(w, x)
         self.assertAlmostEqual(fitted.mean(), y.mean(), places=6)
+
+    def write_results(self, folder, name, num_pairs):
+        """Own poses with two features of clouds, and every other pose a searched one with a third."""
+        lines = [",".join(self.calibration.COLUMNS)]
+        for i in range(num_pairs):
+            is_right = i // 2 % 2
+            features = f"surprise={is_right};margin={(i // 4) % 2};overlap={is_right}"
+            if i % 2:
+                features += f";guided={is_right}"
+            lines.append(f"street,{name}{i},t{i},registered,{is_right},0.5,{features}")
+        path = pathlib.Path(folder) / name
+        path.write_text("\n".join(lines) + "\n")
+        return str(path)
+
+    def report(self, folder, fitted, *flags):
+        text = io.StringIO()
+        with contextlib.redirect_stdout(text):
+            self.calibration.main([self.write_results(folder, "fitted", fitted), *flags])
+        return text.getvalue()
+
+    def test_searched_poses_have_a_model_of_their_own(self):
+        with tempfile.TemporaryDirectory() as folder:
+            text = self.report(folder, 200)
+        own, searched = text.split("matches and clouds: ")[1].split("searched poses: ")
+        self.assertNotIn("guided", own)
+        self.assertIn("guided", searched.splitlines()[0])
+
+    def test_reported_pairs_are_not_fitted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            other = self.write_results(folder, "other", 40)
+            text = self.report(folder, 200, f"--report={other}")
+        self.assertIn("fitted on 200, reported on 40", text)  # Matches alone.
+        self.assertEqual(text.count("fitted on 100, reported on 20"), 2)
 
     def test_intervals_of_rates_are_wilsons(self):
         low, high = self.calibration.wilson(1, 372)
