@@ -4,7 +4,7 @@
 #include "robust/estimators/consensus_search.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -26,7 +26,7 @@ constexpr int kMaxNumCells = 1024;
 constexpr int kNumPerYaw = 16;        // Cells kept per yaw, the fullest.
 constexpr int kRefinedPerWanted = 2;  // Cells refined per proposal.
 constexpr int kNumRefinements = 3;
-constexpr Eigen::Index kYawsPerPiece = 8;
+constexpr Eigen::Index kYawsPerPiece = 16;
 
 // The largest coordinate, in noise bounds, that single precision can compare
 // with the bound.
@@ -137,7 +137,7 @@ class Ballot {
   // Coordinates of translations are less than `extent`.
   Ballot(const Rows& rows, int num_cells, float extent)
       : rows_(rows),
-        num_cells_(num_cells),
+        shift_(std::countr_zero(static_cast<unsigned>(num_cells))),
         offset_(std::exp2(std::ceil(std::log2(extent + 1.0f)))),
         cells_(static_cast<std::size_t>(rows.px.size())),
         votes_(static_cast<std::size_t>(num_cells) *
@@ -150,16 +150,19 @@ class Ballot {
     // A conversion rounds toward 0, so the offset keeps the values positive.
     x_ = (rows_.qx - c * rows_.px + s * rows_.py + offset_).cast<int>();
     y_ = (rows_.qy - s * rows_.px - c * rows_.py + offset_).cast<int>();
+    const auto mask = static_cast<std::uint32_t>(votes_.size() - 1);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      cells_[i] = static_cast<std::uint32_t>(x_[k] * num_cells_ + y_[k]);
+      cells_[i] = static_cast<std::uint32_t>((x_[k] << shift_) + y_[k]) & mask;
     }
-    for (const std::uint32_t cell : cells_) ++At(cell);
+    for (const std::uint32_t cell : cells_) ++votes_[cell];
     int least = 3;
     const std::size_t begin = fullest->size();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
+      // The fullest cell of a block has at least a quarter of its votes.
+      if (4 * votes_[cells_[i]] < least) continue;
+      if (NumVotesAround(cells_[i]) < least) continue;
       const Cells around = CellsAround(cells_[i]);
-      if (around.sum() < least) continue;
       const auto k = static_cast<Eigen::Index>(i);
       const int x = x_[k] - static_cast<int>(offset_);
       const int y = y_[k] - static_cast<int>(offset_);
@@ -168,7 +171,7 @@ class Ballot {
         for (const int dy : {0, 1}) {
           const auto block = around.block<2, 2>(dx, dy);
           const int votes = block.sum();
-          if (votes < least || !IsFirst(block, 1 - dx, 1 - dy)) continue;
+          if (votes < least || !IsFullest(block, 1 - dx, 1 - dy)) continue;
           fullest->push_back({votes, step, x - 1 + dx, y - 1 + dy});
           if (fullest->size() - begin >= 8 * kNumPerYaw) {
             Keep(begin, fullest);
@@ -180,19 +183,32 @@ class Ballot {
       }
     }
     Keep(begin, fullest);
-    for (const std::uint32_t cell : cells_) At(cell) = 0;
+    for (const std::uint32_t cell : cells_) votes_[cell] = 0;
   }
 
  private:
   using Cells = Eigen::Matrix<int, 3, 3>;
 
-  std::uint16_t& At(std::uint32_t cell) {
+  std::uint16_t At(std::uint32_t cell) const {
     return votes_[cell & (votes_.size() - 1)];
   }
 
+  // The sum of CellsAround(), which leaves most matches out.
+  int NumVotesAround(std::uint32_t middle) const {
+    const std::uint32_t n = 1u << shift_;
+    if (middle <= n || middle + n + 1 >= votes_.size()) {
+      return CellsAround(middle).sum();
+    }
+    int sum = 0;
+    for (const std::uint32_t row : {middle - n, middle, middle + n}) {
+      sum += votes_[row - 1] + votes_[row] + votes_[row + 1];
+    }
+    return sum;
+  }
+
   // The votes of three by three cells, by their middle.
-  Cells CellsAround(std::uint32_t middle) {
-    const auto n = static_cast<std::uint32_t>(num_cells_);
+  Cells CellsAround(std::uint32_t middle) const {
+    const std::uint32_t n = 1u << shift_;
     Cells around;
     around << At(middle - n - 1), At(middle - n), At(middle - n + 1),
         At(middle - 1), At(middle), At(middle + 1), At(middle + n - 1),
@@ -200,17 +216,20 @@ class Ballot {
     return around;
   }
 
-  // Whether the cells of the block before this one are empty. A block is found
-  // by the matches of its first cell only.
+  // Whether (x, y) is the first of the fullest cells of the block. A block is
+  // found by the matches of that cell only.
   template <typename Block>
-  static bool IsFirst(const Block& block, int x, int y) {
-    for (int k = 0; k < 2 * x + y; ++k) {
-      if (block(k / 2, k % 2) != 0) return false;
+  static bool IsFullest(const Block& block, int x, int y) {
+    for (int k = 0; k < 4; ++k) {
+      const int votes = block(k / 2, k % 2);
+      if (k < 2 * x + y ? votes >= block(x, y) : votes > block(x, y)) {
+        return false;
+      }
     }
     return true;
   }
 
-  // The fullest, each once: all matches of its first cell found it.
+  // The fullest, each once: all matches of its fullest cell found it.
   static void Keep(std::size_t begin, std::vector<Cell>* fullest) {
     const auto first = fullest->begin() + static_cast<std::ptrdiff_t>(begin);
     std::sort(first, fullest->end(), IsBefore);
@@ -224,10 +243,10 @@ class Ballot {
   }
 
   const Rows& rows_;
-  int num_cells_;
+  int shift_;  // The binary logarithm of num_cells.
   float offset_;
   Eigen::ArrayXi x_, y_;
-  std::vector<std::uint32_t> cells_;  // Of the matches.
+  std::vector<std::uint32_t> cells_;  // Of the matches, modulo the size.
 
   // Cell x num_cells + y, modulo the size; all 0 between counts.
   std::vector<std::uint16_t> votes_;
@@ -335,13 +354,20 @@ class Refinement {
     const auto x = static_cast<float>(refined.translation.x());
     const auto y = static_cast<float>(refined.translation.y());
     const auto squared_bound = static_cast<float>(bound * bound);
-    const Eigen::Array<bool, Eigen::Dynamic, 1> is_near =
-        (rows_.qx - c * rows_.px + s * rows_.py - x).square() +
-            (rows_.qy - s * rows_.px - c * rows_.py - y).square() <=
-        squared_bound;
     std::vector<Eigen::Index> near;
-    for (Eigen::Index i = 0; i < is_near.size(); ++i) {
-      if (is_near[i]) near.push_back(i);
+    // Few are near, so most pieces are left out as a whole.
+    constexpr Eigen::Index kPiece = 64;
+    Eigen::Array<float, Eigen::Dynamic, 1, 0, kPiece, 1> squares;
+    for (Eigen::Index begin = 0; begin < rows_.px.size(); begin += kPiece) {
+      const Eigen::Index n = std::min(kPiece, rows_.px.size() - begin);
+      const auto px = rows_.px.segment(begin, n);
+      const auto py = rows_.py.segment(begin, n);
+      squares = (rows_.qx.segment(begin, n) - c * px + s * py - x).square() +
+                (rows_.qy.segment(begin, n) - s * px - c * py - y).square();
+      if (squares.minCoeff() > squared_bound) continue;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        if (squares[i] <= squared_bound) near.push_back(begin + i);
+      }
     }
     return near;
   }
