@@ -180,6 +180,7 @@ class Ladder {
       const std::vector<ProposedPose> cliques =
           rung == 1 ? ProposeByCliques(matched_source, matched_target, options_)
                     : std::vector<ProposedPose>();
+      if (rung == 1 && options_.search.segments) Search().UseSegments();
       std::vector<PoseCandidate> candidates =
           Search().Find(matches.source,
                         matches.target,
@@ -217,7 +218,7 @@ class Ladder {
   }
 
   // The search, built on first use.
-  const PoseSearch& Search() {
+  PoseSearch& Search() {
     const double voxel_size = options_.front_end.voxel_size;
     if (!search_) {
       search_.emplace(*problem_.source,

@@ -38,6 +38,8 @@ constexpr double kMinInclination = 0.05;
 constexpr double kMaxShiftIntoBounds = 4.0;  // [noise bounds]
 constexpr double kMaxTurnIntoBounds = 0.1;   // [rad]
 
+constexpr int kNumSegmentPoses = 32;
+
 // VG-ICP cannot number the voxels of a wider cloud [voxel sizes].
 constexpr double kMaxWidth = 1e6;
 
@@ -172,6 +174,7 @@ PoseSearch::PoseSearch(const DescribedCloud& source,
                        int num_threads)
     : source_(source),
       target_(target),
+      voxel_size_(voxel_size),
       noise_bound_(noise_bound),
       options_(options),
       num_threads_(num_threads),
@@ -183,27 +186,73 @@ PoseSearch::PoseSearch(const DescribedCloud& source,
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d source_up = EstimateVertical(source, z).value_or(z);
   const Eigen::Vector3d target_up = EstimateVertical(target, z).value_or(z);
-  level_from_source_ = RotationBetween(source_up, z);
-  level_from_target_ = RotationBetween(target_up, z);
-  is_inclined_ =
-      std::min(source_up.z(), target_up.z()) < std::cos(kMinInclination);
+  levels_.emplace_back();
+  if (std::min(source_up.z(), target_up.z()) < std::cos(kMinInclination)) {
+    levels_.push_back({RotationBetween(source_up, z),
+                       RotationBetween(target_up, z),
+                       ", leveled by walls"});
+  }
 }
 
 PoseSearch::~PoseSearch() = default;
+
+void PoseSearch::UseSegments() {
+  const auto find = [&](const DescribedCloud& cloud,
+                        const Eigen::Matrix3d& level_from_cloud) {
+    return FindSegments(
+        level_from_cloud * (cloud.points().colwise() - cloud.sensor),
+        level_from_cloud * cloud.normals,
+        voxel_size_);
+  };
+  for (const Level& level : levels_) {
+    segments_.emplace_back(find(source_, level.from_source),
+                           find(target_, level.from_target),
+                           options_.bound_factor * noise_bound_);
+  }
+}
+
+std::vector<ProposedPose> PoseSearch::SegmentPoses() const {
+  std::vector<ProposedPose> poses;
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    const Level& level = levels_[k];
+    const Eigen::Matrix3d target_from_level = level.from_target.transpose();
+    for (const Rigid3& pose : segments_[k].Propose(kNumSegmentPoses)) {
+      const Eigen::Matrix3d rotation =
+          target_from_level * pose.rotation * level.from_source;
+      poses.push_back({"segments" + level.origin,
+                       {rotation,
+                        target_from_level * pose.translation + target_.sensor -
+                            rotation * source_.sensor}});
+    }
+  }
+  return poses;
+}
+
+double PoseSearch::SegmentRatio(const Rigid3& target_from_source) const {
+  const Eigen::Vector3d shift =
+      target_from_source * source_.sensor - target_.sensor;
+  double ratio = 0.0;
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    const Level& level = levels_[k];
+    const Rigid3 pose{level.from_target * target_from_source.rotation *
+                          level.from_source.transpose(),
+                      level.from_target * shift};
+    ratio = std::max(ratio, segments_[k].LogLikelihoodRatio(pose));
+  }
+  return ratio;
+}
 
 Rigid3 PoseSearch::Align(const Rigid3& target_from_source) const {
   return aligner_ ? aligner_->Align(target_from_source) : target_from_source;
 }
 
-ConsensusSearchOptions PoseSearch::ConsensusOptions(
-    const Eigen::Matrix3d& level_from_source,
-    const Eigen::Matrix3d& level_from_target) const {
+ConsensusSearchOptions PoseSearch::ConsensusOptions(const Level& level) const {
   ConsensusSearchOptions consensus;
   consensus.noise_bound = options_.bound_factor * noise_bound_;
   consensus.max_tilt = options_.max_tilt;
   consensus.max_num_proposals = options_.max_num_proposals;
-  consensus.source_center = level_from_source * source_.sensor;
-  consensus.target_center = level_from_target * target_.sensor;
+  consensus.source_center = level.from_source * source_.sensor;
+  consensus.target_center = level.from_target * target_.sensor;
   consensus.num_threads = num_threads_;
   return consensus;
 }
@@ -211,20 +260,19 @@ ConsensusSearchOptions PoseSearch::ConsensusOptions(
 void PoseSearch::Propose(const PointsRef& matched_source,
                          const PointsRef& matched_target,
                          const std::string& origin,
-                         const Eigen::Matrix3d& level_from_source,
-                         const Eigen::Matrix3d& level_from_target,
+                         const Level& level,
                          std::vector<PoseCandidate>* candidates) const {
-  const ConsensusSearchOptions consensus =
-      ConsensusOptions(level_from_source, level_from_target);
-  const Eigen::Matrix3d target_from_level = level_from_target.transpose();
+  const Eigen::Matrix3d target_from_level = level.from_target.transpose();
   for (const Proposal& proposal :
-       SearchConsensus(matched_source, matched_target, consensus)) {
-    const Rigid3& level = proposal.target_from_source;
+       SearchConsensus(level.from_source * matched_source,
+                       level.from_target * matched_target,
+                       ConsensusOptions(level))) {
+    const Rigid3& pose = proposal.target_from_source;
     PoseCandidate candidate;
     candidate.target_from_source = {
-        target_from_level * level.rotation * level_from_source,
-        target_from_level * level.translation};
-    candidate.origin = origin;
+        target_from_level * pose.rotation * level.from_source,
+        target_from_level * pose.translation};
+    candidate.origin = origin + level.origin;
     candidate.log_likelihood_ratio = proposal.log_likelihood_ratio;
     candidates->push_back(std::move(candidate));
   }
@@ -257,26 +305,24 @@ std::vector<PoseCandidate> PoseSearch::FindAmong(
     const PoseBounds& bounds) const {
   std::vector<PoseCandidate> candidates;
   if (!aligner_ || matched_source.cols() == 0) return candidates;
-  const Eigen::Matrix3d as_given = Eigen::Matrix3d::Identity();
-  Propose(
-      matched_source, matched_target, origin, as_given, as_given, &candidates);
-  if (is_inclined_) {
-    Propose(level_from_source_ * matched_source,
-            level_from_target_ * matched_target,
-            origin + ", leveled by walls",
-            level_from_source_,
-            level_from_target_,
-            &candidates);
+  for (const Level& level : levels_) {
+    Propose(matched_source, matched_target, origin, level, &candidates);
   }
-  for (const ProposedPose& pose : more) {
+  std::vector<ProposedPose> poses = SegmentPoses();
+  poses.insert(poses.end(), more.begin(), more.end());
+  for (const ProposedPose& pose : poses) {
     candidates.push_back(
         {pose.target_from_source,
          origin + ", " + pose.origin,
          ConsensusLogLikelihoodRatio(matched_source,
                                      matched_target,
                                      pose.target_from_source,
-                                     ConsensusOptions(as_given, as_given)),
+                                     ConsensusOptions(Level())),
          GeometricScore()});
+  }
+  for (PoseCandidate& candidate : candidates) {
+    candidate.log_likelihood_ratio +=
+        SegmentRatio(candidate.target_from_source);
   }
   const PoseBounds wide = Widened(bounds, noise_bound_);
   std::erase_if(candidates, [&](const PoseCandidate& candidate) {

@@ -7,6 +7,8 @@
 //              inclined against it, once with the vertical of the walls
 //              (robust/registration/vertical.h); and the poses of cliques
 //              (robust/registration/clique_proposals.h)
+// scans   -> walls, poles and clusters, and the poses on which many of these
+//              agree (robust/registration/segment_consensus.h)
 //           -> geometric score of each proposal, the best are kept
 //           -> VG-ICP in SE(3) from each of these (solvers/local/vgicp.h)
 //           -> geometric score again: candidates, the best first
@@ -15,10 +17,10 @@
 // produces a consensus as large as that of the correct pose. The overlap of
 // structure distinguishes the two. Candidates are ordered by
 //
-//   score(T) * sqrt(log-likelihood ratio of its matches),                  (1)
+//   score(T) * sqrt(log-likelihood ratio),                                 (1)
 //
 // where the second factor is about the number of standard deviations by which
-// the consensus exceeds chance.
+// the consensus of the matches and of the segments exceeds chance.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
 #define QUATRO_ROBUST_REGISTRATION_POSE_SEARCH_H_
@@ -34,6 +36,7 @@
 #include "robust/estimators/consensus_search.h"
 #include "robust/estimators/pose_bounds.h"
 #include "robust/estimators/proposal.h"
+#include "robust/registration/segment_consensus.h"
 #include "robust/verdict/geometric_score.h"
 #include "solvers/local/local_alignment.h"
 
@@ -67,6 +70,10 @@ struct PoseSearchOptions {
   // The largest residual of an inlier of a candidate, in noise bounds.
   double bound_factor = 2.0;
 
+  // Whether the walls, poles and clusters of the scans propose poses, too, and
+  // count for those of others.
+  bool segments = true;
+
   // Whether the clouds are matched again near a candidate
   // (features/guided_matching.h), for the covariance and the verdict.
   bool guided_matching = true;
@@ -79,7 +86,7 @@ struct PoseSearchOptions {
 struct PoseCandidate {
   Rigid3 target_from_source;
   std::string origin;  // The rung and the vertical of its proposal.
-  double log_likelihood_ratio = 0.0;
+  double log_likelihood_ratio = 0.0;  // Of the matches and of the segments.
   GeometricScore geometry;
 
   // (1)
@@ -111,6 +118,9 @@ class PoseSearch {
                                   const std::vector<ProposedPose>& more,
                                   const PoseBounds& bounds) const;
 
+  // Finds the segments of the scans. From now on, Find() uses them.
+  void UseSegments();
+
   // The pose aligned with the clouds by VG-ICP in SE(3), starting from any
   // pose.
   Rigid3 Align(const Rigid3& target_from_source) const;
@@ -130,34 +140,45 @@ class PoseSearch {
                                        const std::vector<ProposedPose>& more,
                                        const PoseBounds& bounds) const;
 
-  // The consensus search in these frames, without matches.
-  ConsensusSearchOptions ConsensusOptions(
-      const Eigen::Matrix3d& level_from_source,
-      const Eigen::Matrix3d& level_from_target) const;
+  // Rotations from the clouds to frames whose z is up.
+  struct Level {
+    Eigen::Matrix3d from_source = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d from_target = Eigen::Matrix3d::Identity();
+    std::string origin;  // How z was found.
+  };
 
-  // Adds the proposals for matches that were rotated into frames with z up by
-  // `level_from_source` and `level_from_target`, the identity for the given
-  // vertical.
+  // The consensus search in level frames, without matches.
+  ConsensusSearchOptions ConsensusOptions(const Level& level) const;
+
+  // Adds the proposals of the matches in level frames.
   void Propose(const PointsRef& matched_source,
                const PointsRef& matched_target,
                const std::string& origin,
-               const Eigen::Matrix3d& level_from_source,
-               const Eigen::Matrix3d& level_from_target,
+               const Level& level,
                std::vector<PoseCandidate>* candidates) const;
+
+  // The poses of the segments, in the frames of the clouds.
+  std::vector<ProposedPose> SegmentPoses() const;
+
+  // The log-likelihood ratio of the segments; 0 without UseSegments().
+  double SegmentRatio(const Rigid3& target_from_source) const;
 
   const DescribedCloud& source_;
   const DescribedCloud& target_;
+  double voxel_size_;
   double noise_bound_;
   PoseSearchOptions options_;
   int num_threads_;
   GeometricScorer scorer_;
   std::unique_ptr<Aligner> aligner_;
 
-  // Rotations from the clouds to frames with z along the vertical of their
-  // walls.
-  Eigen::Matrix3d level_from_source_;
-  Eigen::Matrix3d level_from_target_;
-  bool is_inclined_ = false;
+  // The frames with the given vertical and, if the walls of a scan are inclined
+  // against it, those with the vertical of the walls.
+  std::vector<Level> levels_;
+
+  // In each of these frames, relative to the sensors. Empty without
+  // UseSegments().
+  std::vector<SegmentConsensus> segments_;
 };
 
 }  // namespace quatro
