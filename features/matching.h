@@ -46,6 +46,15 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       int num_threads,
                                       SimdLevel level);
 
+// The matches of `num_rounds` rounds, ascending by round. Each round matches
+// the descriptors that have no match yet. The second and third rounds are less
+// reliable than the first, but double the number of correct matches where few
+// are correct.
+std::vector<Match> MatchInRounds(const Fpfh& source,
+                                 const Fpfh& target,
+                                 int num_rounds,
+                                 int num_threads);
+
 }  // namespace quatro
 
 #endif  // QUATRO_FEATURES_MATCHING_H_

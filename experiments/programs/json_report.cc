@@ -60,7 +60,9 @@ Json Describe(const GeometricEvidence& evidence) {
       {"guided_matches",
        search ? Json(search->num_guided_matches) : Json(nullptr)},
       {"guided_inliers",
-       search ? Json(search->num_guided_inliers) : Json(nullptr)}};
+       search ? Json(search->num_guided_inliers) : Json(nullptr)},
+      {"segment_log_likelihood_ratio",
+       search ? Json(search->segment_ratio) : Json(nullptr)}};
 }
 
 // The evidence on which the verdict is based.

@@ -356,10 +356,10 @@ class Refinement {
     const auto squared_bound = static_cast<float>(bound * bound);
     std::vector<Eigen::Index> near;
     // Few are near, so most pieces are left out as a whole.
-    constexpr Eigen::Index kPiece = 64;
-    Eigen::Array<float, Eigen::Dynamic, 1, 0, kPiece, 1> squares;
-    for (Eigen::Index begin = 0; begin < rows_.px.size(); begin += kPiece) {
-      const Eigen::Index n = std::min(kPiece, rows_.px.size() - begin);
+    constexpr Eigen::Index kPieceSize = 64;
+    Eigen::Array<float, Eigen::Dynamic, 1, 0, kPieceSize, 1> squares;
+    for (Eigen::Index begin = 0; begin < rows_.px.size(); begin += kPieceSize) {
+      const Eigen::Index n = std::min(kPieceSize, rows_.px.size() - begin);
       const auto px = rows_.px.segment(begin, n);
       const auto py = rows_.py.segment(begin, n);
       squares = (rows_.qx.segment(begin, n) - c * px + s * py - x).square() +

@@ -185,6 +185,18 @@ MatchedPoints MatchAgain(const DescribedCloud& source,
                   target_voxels);
 }
 
+MatchedPoints MatchInRounds(const DescribedCloud& source,
+                            const DescribedCloud& target,
+                            int num_rounds,
+                            int num_threads) {
+  if (!source.descriptors || !target.descriptors) return {};
+  return PointsOf(
+      MatchInRounds(
+          *source.descriptors, *target.descriptors, num_rounds, num_threads),
+      source.points(),
+      target.points());
+}
+
 MatchedClouds MatchClouds(
     const PointCloud& source,
     const PointCloud& target,

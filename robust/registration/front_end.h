@@ -72,6 +72,13 @@ MatchedPoints MatchAgain(const DescribedCloud& source,
                          const FrontEndOptions& options,
                          int num_threads);
 
+// The matches of `num_rounds` rounds by the clouds' own descriptors
+// (features/matching.h); none if a cloud has no descriptors.
+MatchedPoints MatchInRounds(const DescribedCloud& source,
+                            const DescribedCloud& target,
+                            int num_rounds,
+                            int num_threads);
+
 // `source_up` and `target_up` are the upward directions in the clouds, unit
 // vectors. Options must be valid.
 MatchedClouds MatchClouds(

@@ -21,6 +21,8 @@ constexpr double kVoxelFactor = 2.0;
 constexpr double kNormalFactor = 4.0 / 3.0;
 constexpr double kFpfhFactor = 7.0 / 3.0;
 
+constexpr int kNumRounds = 3;  // Of matching on rung 3.
+
 // A pose is as good as another one if its score is at least this share of the
 // other's: the score is that of a sample.
 constexpr double kMinScoreShare = 0.95;
@@ -28,9 +30,13 @@ constexpr double kMinScoreShare = 0.95;
 // A consensus of more than this share of the matches is not due to chance.
 constexpr double kSureShare = 0.2;
 
-// Whether the tilt between the scans was estimated.
+// From this number of inliers on, a polished pose has the tilt of the surfaces.
+constexpr Eigen::Index kManyInliers = 25;
+
+// Whether the tilt between the scans was estimated from many matches.
 bool HasTilt(const PoseSummary& summary) {
-  return summary.model == PoseModel::kRigid;
+  return summary.model == PoseModel::kRigid &&
+         summary.num_translation_inliers >= kManyInliers;
 }
 
 // Runs an estimator on only the inliers of a candidate, and polishes its pose
@@ -109,6 +115,12 @@ MatchedPoints MatchesOf(int rung,
                         const MatchedPoints& mutual_matches,
                         const LevelProblem& problem) {
   if (rung == 1) return mutual_matches;
+  if (rung == 3) {
+    return MatchInRounds(*problem.source,
+                         *problem.target,
+                         kNumRounds,
+                         problem.options.num_threads);
+  }
   FrontEndOptions front_end = problem.options.front_end;
   front_end.voxel_size *= kVoxelFactor;
   front_end.normal_radius *= kNormalFactor;
@@ -143,8 +155,9 @@ class Ladder {
         options_(problem.options),
         summary_(*summary) {}
 
-  // Aligns a registered pose whose tilt was not estimated with the clouds. If
-  // this improves the score, the aligned pose is judged and replaces it.
+  // Aligns a registered pose whose tilt was estimated from few matches, or not
+  // at all, with the clouds. If this improves the score, the aligned pose is
+  // judged and replaces it.
   void CheckTilt(const PointsRef& matched_source,
                  const PointsRef& matched_target) {
     const bool is_refined =
@@ -178,8 +191,9 @@ class Ladder {
       Stopwatch stopwatch;
       MatchedPoints matches = MatchesOf(rung, mutual_matches_, problem_);
       const std::vector<ProposedPose> cliques =
-          rung == 1 ? ProposeByCliques(matched_source, matched_target, options_)
-                    : std::vector<ProposedPose>();
+          rung == 1 && options_.search.cliques
+              ? ProposeByCliques(matched_source, matched_target, options_)
+              : std::vector<ProposedPose>();
       if (rung == 1 && options_.search.segments) Search().UseSegments();
       std::vector<PoseCandidate> candidates =
           Search().Find(matches.source,
@@ -252,6 +266,7 @@ class Ladder {
     std::optional<SearchEvidence> search;
     if (rung > 0 && options_.search.guided_matching) {
       search.emplace();
+      search->segment_ratio = Search().SegmentRatio(candidate);
       search->is_first = rung == 1 && options_.search.is_first_scale;
     }
     const PoseSolver solver =

@@ -6,6 +6,7 @@
 //   rung 1  poses searched in all mutual matches
 //           (robust/registration/pose_search.h)
 //   rung 2  as rung 1, with coarser voxels and descriptors of larger radii
+//   rung 3  as rung 1, with the matches of three rounds (features/matching.h)
 //
 // Each rung takes its best candidate and runs the estimator on the inliers of
 // that candidate. So the yaw comes from GNC with its certificate. Ten inliers
@@ -17,11 +18,12 @@
 // with the first pose that is registered; otherwise the pose with the highest
 // probability is the answer.
 //
-// If few matches are inliers, the estimator finds no tilt between the scans,
-// and its pose may be registered although it is off by that tilt. Therefore
-// such a pose is aligned with the clouds by VG-ICP, unless an INS gives the
-// tilt or a refinement was accepted. If the aligned pose has a better geometric
-// score, it becomes the candidate of rung 0, and its verdict counts.
+// If few matches are inliers, the estimator finds no tilt between the scans, or
+// an inaccurate one, and its pose may be registered although it is off by that
+// tilt. Therefore such a pose is aligned with the clouds by VG-ICP, unless an
+// INS gives the tilt or a refinement was accepted. If the aligned pose has a
+// better geometric score, it becomes the candidate of rung 0, and its verdict
+// counts.
 
 #ifndef QUATRO_ROBUST_REGISTRATION_LADDER_H_
 #define QUATRO_ROBUST_REGISTRATION_LADDER_H_

@@ -95,8 +95,8 @@ double Width(const Points& points) {
 
 bool PoseSearchOptions::IsValid(std::string* error) const {
   std::ostringstream problem;
-  if (max_rung < 0 || max_rung > 2) {
-    problem << "search.max_rung = " << max_rung << ", must be in [0, 2]";
+  if (max_rung < 0 || max_rung > 3) {
+    problem << "search.max_rung = " << max_rung << ", must be in [0, 3]";
   } else if (scale_factors.empty() ||
              !std::all_of(
                  scale_factors.begin(), scale_factors.end(), [](double factor) {
@@ -305,8 +305,10 @@ std::vector<PoseCandidate> PoseSearch::FindAmong(
     const PoseBounds& bounds) const {
   std::vector<PoseCandidate> candidates;
   if (!aligner_ || matched_source.cols() == 0) return candidates;
-  for (const Level& level : levels_) {
-    Propose(matched_source, matched_target, origin, level, &candidates);
+  if (options_.consensus) {
+    for (const Level& level : levels_) {
+      Propose(matched_source, matched_target, origin, level, &candidates);
+    }
   }
   std::vector<ProposedPose> poses = SegmentPoses();
   poses.insert(poses.end(), more.begin(), more.end());
@@ -342,10 +344,14 @@ std::vector<PoseCandidate> PoseSearch::FindAmong(
                 });
   };
   const auto sort = [&] {
+    const auto rank = [&](const PoseCandidate& candidate) {
+      return options_.geometric_choice ? candidate.Score()
+                                       : candidate.log_likelihood_ratio;
+    };
     std::stable_sort(candidates.begin(),
                      candidates.end(),
-                     [](const PoseCandidate& a, const PoseCandidate& b) {
-                       return a.Score() > b.Score();
+                     [&](const PoseCandidate& a, const PoseCandidate& b) {
+                       return rank(a) > rank(b);
                      });
   };
   for_all(score);

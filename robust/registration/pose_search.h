@@ -45,8 +45,8 @@ namespace quatro {
 // How far the search goes.
 struct PoseSearchOptions {
   // The rungs above the estimator's own pose that are tried until a pose is
-  // registered (robust/registration/ladder.h), in [0, 2].
-  int max_rung = 2;
+  // registered (robust/registration/ladder.h), in [0, 3].
+  int max_rung = 3;
 
   // Register() multiplies all lengths by each of these factors in turn
   // (ScaledBy() in robust/registration/options.h) and tries all rungs, until a
@@ -70,9 +70,15 @@ struct PoseSearchOptions {
   // The largest residual of an inlier of a candidate, in noise bounds.
   double bound_factor = 2.0;
 
-  // Whether the walls, poles and clusters of the scans propose poses, too, and
-  // count for those of others.
+  // What proposes poses. With `segments`, the walls, poles and clusters of the
+  // scans also count for the proposals of others.
+  bool consensus = true;
+  bool cliques = true;
   bool segments = true;
+
+  // Whether the geometry chooses among the proposals. If not, the order is that
+  // of the log-likelihood ratio.
+  bool geometric_choice = true;
 
   // Whether the clouds are matched again near a candidate
   // (features/guided_matching.h), for the covariance and the verdict.
@@ -125,6 +131,10 @@ class PoseSearch {
   // pose.
   Rigid3 Align(const Rigid3& target_from_source) const;
 
+  // How well the segments support any pose, by
+  // robust/registration/segment_consensus.h [nat]; 0 without UseSegments().
+  double SegmentRatio(const Rigid3& target_from_source) const;
+
   // The score of any pose.
   GeometricScore ScoreOf(const Rigid3& target_from_source) const {
     return scorer_.At(target_from_source);
@@ -159,9 +169,6 @@ class PoseSearch {
 
   // The poses of the segments, in the frames of the clouds.
   std::vector<ProposedPose> SegmentPoses() const;
-
-  // The log-likelihood ratio of the segments; 0 without UseSegments().
-  double SegmentRatio(const Rigid3& target_from_source) const;
 
   const DescribedCloud& source_;
   const DescribedCloud& target_;

@@ -74,6 +74,10 @@ struct SearchEvidence {
   Eigen::Index num_guided_matches = 0;
   Eigen::Index num_guided_inliers = 0;
 
+  // The log-likelihood ratio of the segments of the scans for the candidate
+  // (robust/registration/segment_consensus.h) [nat]; 0 without segments.
+  double segment_ratio = 0.0;
+
   // Whether the pose is from the first search, at rung 1 and at the first
   // scale. The more searches, the more hypotheses were tried.
   bool is_first = true;

@@ -20,13 +20,14 @@ constexpr double kCloudsWeights[] = {
     0.0, 0.984, 2.046, 3.001, 1.926, 2.576, 1.616};
 constexpr double kSearchIntercept = -11.792;
 constexpr double kSearchWeights[] = {
-    0.0, 0.087, 1.174, 3.389, 1.611, 2.697, 1.69, 3.906, 1.565};
+    0.0, 0.087, 1.174, 3.389, 1.611, 2.697, 1.69, 3.906, 0.0, 1.565};
 
-// The upper ends of two ramps.
+// The upper ends of ramps.
 constexpr double kLargeOverlap = 0.3;
 constexpr double kLargeDistinctness = 0.15;
 constexpr double kLargeOverlapOfSearch = 0.5;
 constexpr double kLargeDistinctnessOfSearch = 0.3;
+constexpr double kLargeSegmentRatio = 10.0;
 
 // Typical values, assumed if free space is unknown, so that the feature has
 // little influence.
@@ -79,6 +80,8 @@ std::vector<Feature> MakeFeatures(
          Ramp(std::log1p(static_cast<double>(search->num_guided_inliers)),
               std::log(10.0),
               std::log(100.0))});
+    features.push_back(
+        {"segments", Ramp(search->segment_ratio, 0.0, kLargeSegmentRatio)});
     features.push_back({"first_search", search->is_first ? 1.0 : 0.0});
   }
   return features;

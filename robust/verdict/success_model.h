@@ -21,10 +21,11 @@
 //   held                log10 of the weakest share         -2 .. -0.8
 //
 // The model of poses that were searched for has ramps of 0 .. 0.5 for overlap
-// and 0 .. 0.3 for distinctness, and two more features,
+// and 0 .. 0.3 for distinctness, and three more features,
 //
 //   guided              ln of the inliers of guided        ln 10 .. ln 100
 //                       matches, plus one
+//   segments            log-likelihood ratio of segments   0 .. 10
 //   first_search        1 if the pose is from the first
 //                       search, else 0
 //

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <ostream>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -298,6 +299,30 @@ TEST(MatchMutualNearest, ZeroDescriptorsMatchNothing) {
   EXPECT_THAT(MatchMutualNearest(none, none, 1), IsEmpty());
   EXPECT_THAT(MatchMutualNearest(none, target, 1), IsEmpty());
   EXPECT_THAT(MatchMutualNearest(source, none, 1), IsEmpty());
+}
+
+// Each round is the mutual matches of what the rounds before left.
+TEST(MatchInRounds, MatchesWhatIsLeft) {
+  const Fpfh source = RandomDescriptors(150, 3);
+  const Fpfh target = RandomDescriptors(120, 4);
+  Fpfh left_source = source;
+  Fpfh left_target = target;
+  std::vector<Match> expected;
+  for (int num_rounds = 0; num_rounds <= 4; ++num_rounds) {
+    EXPECT_EQ(MatchInRounds(source, target, num_rounds, 1), expected)
+        << num_rounds;
+    for (const Match& match : MatchMutualNearest(left_source, left_target, 1)) {
+      expected.push_back(match);
+      left_source.col(match.source).setZero();
+      left_target.col(match.target).setZero();
+    }
+  }
+  std::set<std::int32_t> sources, targets;
+  for (const Match& match : MatchInRounds(source, target, 4, 1)) {
+    EXPECT_TRUE(sources.insert(match.source).second);
+    EXPECT_TRUE(targets.insert(match.target).second);
+  }
+  EXPECT_GT(sources.size(), MatchMutualNearest(source, target, 1).size());
 }
 
 TEST(MatchMutualNearest, DoesNotDependOnTheNumberOfThreads) {

@@ -121,6 +121,21 @@ TEST(Ladder, MatchesAgainNearASearchedPose) {
   EXPECT_FALSE(own.verdict.geometry->search);
 }
 
+TEST(Ladder, SegmentsProposePoses) {
+  const auto num_of_segments = [](const RegistrationSummary& summary) {
+    return std::count_if(summary.candidates.begin(),
+                         summary.candidates.end(),
+                         [](const PoseCandidate& candidate) {
+                           return candidate.origin.find("segments") !=
+                                  std::string::npos;
+                         });
+  };
+  RegistrationOptions options;
+  EXPECT_GT(num_of_segments(RegisterFar(options)), 0);
+  options.search.segments = false;
+  EXPECT_EQ(num_of_segments(RegisterFar(options)), 0);
+}
+
 // The estimator's pose of a few inliers is polished by the surfaces.
 TEST(Ladder, ASearchedPoseIsAsAccurateAsTheSurfaces) {
   const RegistrationSummary summary = RegisterFar({});
@@ -362,8 +377,8 @@ TEST(PoseSearchOptions, ErrorsNameTheField) {
     EXPECT_FALSE(options.IsValid(&error));
     return error;
   };
-  EXPECT_THAT(error_of([](auto* o) { o->max_rung = 3; }),
-              HasSubstr("search.max_rung = 3, must be in [0, 2]"));
+  EXPECT_THAT(error_of([](auto* o) { o->max_rung = 4; }),
+              HasSubstr("search.max_rung = 4, must be in [0, 3]"));
   EXPECT_THAT(error_of([](auto* o) { o->scale_factors = {}; }),
               HasSubstr("search.scale_factors"));
   EXPECT_THAT(error_of([](auto* o) {
