@@ -71,6 +71,13 @@ std::string NameArgument(const py::object& given, const char* argument) {
                        ", must be a str");
 }
 
+// Runs after each stage of a call that released the GIL: a signal such as
+// Ctrl-C ends the call.
+void RaiseSignals(const StageTime& /*stage*/) {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 const Method& MethodOf(const std::string& name) {
   std::string names;
   for (const Method& method : Methods()) {
@@ -158,6 +165,7 @@ Registration RegisterClouds(const py::object& source,
     }
   }
   options.num_threads = 0;
+  options.progress = RaiseSignals;
   Read(method, true, given, "register", &options);
 
   Registration answer;
@@ -192,6 +200,7 @@ Solution SolveMatches(const py::object& source_points,
         ", row i of one must be matched with row i of the other");
   }
   RegistrationOptions options = FindPreset(preset, nullptr);
+  options.progress = RaiseSignals;
   Read(method, false, given, "solve", &options);
 
   Solution answer;
@@ -351,7 +360,7 @@ Returns a Registration; target_from_source moves points of the source onto the
 target, and is_registered says if it can be relied on. Raises ValueError for
 points and values that the library rejects, with its message, and TypeError for
 options that the method does not have. Other Python threads run during the call:
-do not change the arrays.
+do not change the arrays. Ctrl-C ends the call when the current stage is done.
 
 Options; the preset decides the others:
 )";

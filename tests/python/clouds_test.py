@@ -4,6 +4,7 @@
 
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
@@ -261,6 +262,26 @@ def test_named_arguments_are_left_alone():
     given = {'source': FEW_SOURCE, 'target': FEW_TARGET, 'method': 'icp'}
     quatro.align(**given)
     assert sorted(given) == ['method', 'source', 'target']
+
+
+def test_ctrl_c_ends_a_call_at_the_end_of_its_stage():
+    class Stop(Exception):
+        pass
+
+    def stop(*_):
+        raise Stop
+
+    before = signal.signal(signal.SIGALRM, stop)
+    try:
+        for call in (lambda: quatro.register(SOURCE, TARGET, 'kitti'),
+                     lambda: quatro.solve(SOURCE, SOURCE, max_tilt=0.1)):
+            signal.setitimer(signal.ITIMER_REAL, 0.01)
+            with pytest.raises(Stop):
+                call()
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert quatro.register(SOURCE, TARGET, 'kitti').is_registered
 
 
 def test_local_alignment_refuses():
