@@ -48,9 +48,9 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
   if (!((last_cell - first_cell).array() < kMaxCells).all()) {
     problem << "the cloud is "
             << (last_cell - first_cell).maxCoeff() * voxel_size
-            << " m wide, more than 2^21 voxels of " << voxel_size
-            << " m: remove stray points, enlarge voxel_size, or see whether "
-               "the file is of another layout or unit";
+            << " m wide, which is more than 2^21 voxels of " << voxel_size
+            << " m; remove stray points or use a larger voxel_size. The file "
+               "may also have another layout or unit";
     *error = problem.str();
     return std::nullopt;
   }

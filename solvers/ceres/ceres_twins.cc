@@ -132,7 +132,8 @@ Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
                 pair.target.allFinite() && std::isfinite(pair.sqrt_weight);
   }
   if (problem.pairs.empty() || !is_finite) {
-    minimum.message = is_finite ? "No pair has weight." : "Not finite.";
+    minimum.message = is_finite ? "all weights are zero, so nothing is solved"
+                                : "a point or a weight is not finite";
     return minimum;
   }
 

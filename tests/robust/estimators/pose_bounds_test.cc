@@ -177,9 +177,9 @@ TEST(PoseBounds, WhatIsOutOfRangeIsToldByName) {
   EXPECT_THAT(problem([](PoseBounds* b) { b->up.z() = 2.0; }),
               HasSubstr("bounds.up"));
   EXPECT_THAT(problem([](PoseBounds* b) { b->guess.rotation *= 2.0; }),
-              HasSubstr("rotation"));
+              HasSubstr("bounds.guess has no rotation in its first three"));
   EXPECT_THAT(problem([](PoseBounds* b) { b->guess.translation.x() = kNan; }),
-              HasSubstr("finite"));
+              HasSubstr("bounds.guess has a number that is not finite"));
   std::string error;
   EXPECT_TRUE(PoseBounds().IsValid(&error)) << error;
 }

@@ -312,7 +312,7 @@ TEST_F(CeresTwinTest, IsNotUsableWithoutWeightOrWithNaN) {
       SolvePoseByCeres(Points(3, 0), Points(3, 0), Weights(0)).is_usable);
   const auto twin = SolveRotationByCeres(source_, source_, not_numbers);
   EXPECT_FALSE(twin.is_usable);
-  EXPECT_EQ(twin.message, "Not finite.");
+  EXPECT_EQ(twin.message, "a point or a weight is not finite");
 }
 
 TEST_F(CeresTwinTest, UndeterminedIsUsableWithASingularCurvature) {
