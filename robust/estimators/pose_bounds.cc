@@ -108,13 +108,6 @@ std::vector<Eigen::Index> PoseBounds::PossibleInliers(
   return columns;
 }
 
-PoseBounds PoseBounds::InFrame(const Rigid3& frame_from_target) const {
-  PoseBounds bounds = *this;
-  bounds.guess = frame_from_target * guess;
-  bounds.up = frame_from_target.rotation * up;
-  return bounds;
-}
-
 std::string PoseBounds::Describe(const Rigid3& target_from_source) const {
   const Step step = StepFromGuess(*this, target_from_source);
   std::ostringstream text;
