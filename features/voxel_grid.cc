@@ -39,6 +39,16 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
     return std::nullopt;
   }
 
+  const double width =
+      (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+  if (width > 0.0 && width < kMinCloudWidth) {
+    problem << "the cloud is " << width
+            << " m wide, must be at least 1e-100 m; convert its coordinates to "
+               "meters";
+    *error = problem.str();
+    return std::nullopt;
+  }
+
   const Eigen::Vector3d first_cell =
       (points.rowwise().minCoeff() / voxel_size).array().floor();
   const Eigen::Vector3d last_cell =
