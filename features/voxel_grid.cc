@@ -39,6 +39,16 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
     return std::nullopt;
   }
 
+  const double width =
+      (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+  if (width > 0.0 && width < kMinCloudWidth) {
+    problem << "the cloud is " << width
+            << " m wide, must be at least 1e-100 m; convert its coordinates to "
+               "meters";
+    *error = problem.str();
+    return std::nullopt;
+  }
+
   const Eigen::Vector3d first_cell =
       (points.rowwise().minCoeff() / voxel_size).array().floor();
   const Eigen::Vector3d last_cell =
@@ -48,9 +58,9 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
   if (!((last_cell - first_cell).array() < kMaxCells).all()) {
     problem << "the cloud is "
             << (last_cell - first_cell).maxCoeff() * voxel_size
-            << " m wide, more than 2^21 voxels of " << voxel_size
-            << " m: remove stray points, enlarge voxel_size, or see whether "
-               "the file is of another layout or unit";
+            << " m wide, which is more than 2^21 voxels of " << voxel_size
+            << " m; remove stray points or use a larger voxel_size. The file "
+               "may also have another layout or unit";
     *error = problem.str();
     return std::nullopt;
   }

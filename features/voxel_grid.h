@@ -19,9 +19,13 @@
 
 namespace quatro {
 
+// The squares of smaller distances have no digits, so that all points count as
+// equally near [m].
+inline constexpr double kMinCloudWidth = 1e-100;
+
 // `voxel_size` is in meters. Returns nullopt and sets *error if it is not
-// positive and finite, if a point is not finite, or if the cloud is wider than
-// 2^21 cells.
+// positive and finite, if a point is not finite, if the cloud is wider than
+// 2^21 cells, or if its points differ but its width is below kMinCloudWidth.
 std::optional<Points> SampleVoxels(const PointsRef& points,
                                    double voxel_size,
                                    std::string* error);

@@ -29,11 +29,12 @@ void BindAlignment(py::module_* module) {
       .def("as_dict", &AsDict, kAsDictDoc)
       .def(
           "transform",
-          [](const Alignment& a, const py::object& points) {
+          [](const Alignment& a,
+             const py::args& args,
+             const py::kwargs& named) {
             return Transform(
-                a.summary.target_from_source, a.summary.message, points);
+                a.summary.target_from_source, a.summary.message, args, named);
           },
-          py::arg("points"),
           kTransformDoc)
       .def_readonly("method", &Alignment::method, "str: icp, gicp or vgicp.")
       .def_property_readonly(

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "python/arguments.h"
+
 namespace quatro {
 namespace {
 
@@ -45,12 +47,16 @@ std::optional<Eigen::Matrix3d> NearestRotationTo(
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-py::array RealNumbers(const py::object& given, const char* name) {
+// `shape` is that of the array that is expected.
+py::array RealNumbers(const py::object& given,
+                      const char* name,
+                      const std::string& shape) {
   RefuseMasked(given, name);
   auto array = py::array::ensure(given);
-  if (!array) {
-    PyErr_Clear();
-    throw py::value_error(std::string(name) + " is not an array of numbers");
+  if (!array) PyErr_Clear();
+  if (!array || array.dtype().kind() == 'O') {
+    throw py::value_error(std::string(name) + " = " + Shown(given) +
+                          ", must be an array of real numbers, " + shape);
   }
   const char kind = array.dtype().kind();
   if (array.size() > 0 && kind != 'f' && kind != 'i' && kind != 'u') {
@@ -59,11 +65,6 @@ py::array RealNumbers(const py::object& given, const char* name) {
                           ", must be real numbers");
   }
   return array;
-}
-
-bool IsPath(const py::object& given) {
-  return py::isinstance<py::str>(given) || py::isinstance<py::bytes>(given) ||
-         py::hasattr(given, "__fspath__");
 }
 
 // What to do about points of another shape; empty if unknown.
@@ -88,10 +89,14 @@ py::array ReadOnly(py::array array) {
 
 }  // namespace
 
+bool IsPath(const py::object& given) {
+  return py::isinstance<py::str>(given) || py::isinstance<py::bytes>(given) ||
+         py::hasattr(given, "__fspath__");
+}
+
 PointsArgument::PointsArgument(const py::object& given, const char* name) {
   if (IsPath(given)) {
-    throw py::type_error(std::string(name) + " = " +
-                         py::repr(given).cast<std::string>() +
+    throw py::type_error(std::string(name) + " = " + Shown(given) +
                          ", must be an (N, 3) array; quatro.read_cloud() reads "
                          "files");
   }
@@ -99,7 +104,7 @@ PointsArgument::PointsArgument(const py::object& given, const char* name) {
   if (!py::isinstance<py::array>(given) && py::hasattr(given, "points")) {
     points = given.attr("points");
   }
-  const py::array array = RealNumbers(points, name);
+  const py::array array = RealNumbers(points, name, "(N, 3)");
   if (array.ndim() != 2 || array.shape(1) != 3) {
     throw py::value_error(std::string(name) + " has shape " + Shape(array) +
                           ", must be (N, 3)" + ShapeHint(array, name));
@@ -135,7 +140,7 @@ PointCloud MakeCloud(const PointsArgument& points) {
 }
 
 Rigid3 PoseArgument(const py::object& given, const char* name) {
-  const py::array array = RealNumbers(given, name);
+  const py::array array = RealNumbers(given, name, "(4, 4) or (3, 4)");
   const bool is_pose = array.ndim() == 2 && array.shape(1) == 4 &&
                        (array.shape(0) == 3 || array.shape(0) == 4);
   if (!is_pose) {

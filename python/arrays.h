@@ -20,6 +20,9 @@
 
 namespace quatro {
 
+// Whether this is the name of a file: a str, bytes or os.PathLike.
+bool IsPath(const pybind11::object& given);
+
 // A given (N, 3) array or an Open3D cloud. It is used without a copy if it is
 // float64 and the three numbers of a point are contiguous, with any distance
 // between rows; otherwise it is copied. Throws ValueError, which names the

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "python/arguments.h"
 #include "python/arrays.h"
 
 namespace quatro {
@@ -59,12 +60,15 @@ py::dict AsDict(const py::object& self) {
 
 py::array Transform(const std::optional<Rigid3>& target_from_source,
                     const std::string& message,
-                    const py::object& points) {
+                    const py::args& args,
+                    const py::kwargs& named) {
+  const auto given =
+      TakeArguments(kTransformDoc, {{"points", {}}}, 1, args, named, nullptr);
   if (!target_from_source) {
     throw py::value_error("there is no pose to transform by: " + message);
   }
   return TakePoints(
-      target_from_source->Apply(PointsArgument(points, "points").View()));
+      target_from_source->Apply(PointsArgument(given[0], "points").View()));
 }
 
 }  // namespace quatro

@@ -37,11 +37,12 @@ inline constexpr char kAsDictDoc[] =
     "dict: all properties by name, for a table or another process; "
     "arrays are copies. Can be pickled.";
 
-// The points moved by the pose. Raises ValueError with `message` if there is
-// none.
+// The points, given as the only argument, moved by the pose. Raises ValueError
+// with `message` if there is no pose.
 pybind11::array Transform(const std::optional<Rigid3>& target_from_source,
                           const std::string& message,
-                          const pybind11::object& points);
+                          const pybind11::args& args,
+                          const pybind11::kwargs& named);
 
 inline constexpr char kTransformDoc[] =
     "transform(points)\n--\n\n"

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "features/io/cloud_io.h"
+#include "python/arguments.h"
 #include "python/arrays.h"
 #include "python/options.h"
 #include "python/summaries.h"
@@ -64,11 +65,17 @@ void CheckBounds(const py::dict& given,
   }
 }
 
-// pybind11's own message for another type has one line for each argument.
 std::string NameArgument(const py::object& given, const char* argument) {
   if (py::isinstance<py::str>(given)) return given.cast<std::string>();
-  throw py::type_error(std::string(argument) + " = " +
-                       py::repr(given).cast<std::string>() + ", must be a str");
+  throw py::type_error(std::string(argument) + " = " + Shown(given) +
+                       ", must be a str");
+}
+
+// Runs after each stage of a call that released the GIL: a signal such as
+// Ctrl-C ends the call.
+void RaiseSignals(const StageTime& /*stage*/) {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
 const Method& MethodOf(const std::string& name) {
@@ -129,7 +136,7 @@ Registration RegisterClouds(const py::object& source,
                             const py::object& target,
                             const py::object& preset_name,
                             const py::object& method_name,
-                            const py::kwargs& given) {
+                            const py::dict& given) {
   const Method& method = MethodOf(NameArgument(method_name, "method"));
   const std::string preset = NameArgument(preset_name, "preset");
   const PointsArgument source_points(source, "source");
@@ -139,7 +146,8 @@ Registration RegisterClouds(const py::object& source,
   double voxel_size = 0.0;
   if (given.contains("voxel_size") &&
       PyNumber_Check(given["voxel_size"].ptr())) {
-    const double value = py::float_(given["voxel_size"]);
+    const double value = PyFloat_AsDouble(given["voxel_size"].ptr());
+    if (PyErr_Occurred()) PyErr_Clear();  // Read() refuses it.
     if (value > 0.0 && std::isfinite(value)) voxel_size = value;
   }
   RegistrationOptions options;
@@ -157,6 +165,7 @@ Registration RegisterClouds(const py::object& source,
     }
   }
   options.num_threads = 0;
+  options.progress = RaiseSignals;
   Read(method, true, given, "register", &options);
 
   Registration answer;
@@ -177,7 +186,7 @@ Solution SolveMatches(const py::object& source_points,
                       const py::object& target_points,
                       const py::object& method_name,
                       const py::object& preset_name,
-                      const py::kwargs& given) {
+                      const py::dict& given) {
   const Method& method = MethodOf(NameArgument(method_name, "method"));
   const std::string preset = NameArgument(preset_name, "preset");
   const PointsArgument source_argument(source_points, "source_points");
@@ -191,6 +200,7 @@ Solution SolveMatches(const py::object& source_points,
         ", row i of one must be matched with row i of the other");
   }
   RegistrationOptions options = FindPreset(preset, nullptr);
+  options.progress = RaiseSignals;
   Read(method, false, given, "solve", &options);
 
   Solution answer;
@@ -248,7 +258,7 @@ Alignment AlignClouds(const py::object& source,
                       const py::object& target,
                       const py::object& method_name,
                       const py::object& initial,
-                      const py::kwargs& options) {
+                      const py::dict& options) {
   const std::string method = NameArgument(method_name, "method");
   if (method != "icp" && method != "gicp" && method != "vgicp") {
     throw py::value_error("method = \"" + method +
@@ -274,7 +284,20 @@ Alignment AlignClouds(const py::object& source,
   return answer;
 }
 
-py::array ReadPoints(const py::object& path, int point_floats) {
+py::array ReadPoints(const py::object& path, const py::object& given_floats) {
+  if (!IsPath(path)) {
+    throw py::type_error("path = " + Shown(path) +
+                         ", must be a str, bytes or os.PathLike");
+  }
+  int point_floats = 0;
+  py::dict options;
+  options["point_floats"] = given_floats;
+  Apply(options,
+        {{"point_floats",
+          "0 or in [3, 64]",
+          "numbers of a point",
+          &point_floats}},
+        "read_cloud");
   const auto name =
       py::module_::import("os").attr("fsencode")(path).cast<std::string>();
   if (name.find('\0') != std::string::npos) {
@@ -337,7 +360,7 @@ Returns a Registration; target_from_source moves points of the source onto the
 target, and is_registered says if it can be relied on. Raises ValueError for
 points and values that the library rejects, with its message, and TypeError for
 options that the method does not have. Other Python threads run during the call:
-do not change the arrays.
+do not change the arrays. Ctrl-C ends the call when the current stage is done.
 
 Options; the preset decides the others:
 )";
@@ -378,55 +401,110 @@ Options (epsilon and num_neighbors only for gicp and vgicp, voxel_size only for
 vgicp):
 )";
 
+constexpr char kReadCloud[] =
+    "read_cloud(path, point_floats=0)\n--\n\n"
+    "(N, 3) float64 [m] of a .bin, .ply, .pcd, .npy, .xyz, .txt or .csv "
+    "file, or of\none of these with .gz. Points that are not finite and "
+    "points at the origin are\nleft out. A point of a .bin has "
+    "`point_floats` numbers, x, y, z first; 0 infers\nhow many. Raises "
+    "ValueError with what is wrong with the file.";
+
+constexpr char kMethods[] =
+    "methods()\n--\n\n"
+    "dict: the methods and what each does. Those that work on clouds are\nfor "
+    "register() only.";
+
+constexpr char kPresets[] =
+    "presets()\n--\n\n"
+    "tuple of str: sets of options that belong together.";
+
+void BindRegistration(py::module_* module) {
+  const std::string register_doc = kRegister + DescribeMethods(true);
+  const std::string solve_doc = kSolve + DescribeMethods(false);
+  module->def(
+      "register",
+      [](const py::args& args, const py::kwargs& named) {
+        py::dict options;
+        const auto given = TakeArguments(kRegister,
+                                         {{"source", {}},
+                                          {"target", {}},
+                                          {"preset", py::str("auto")},
+                                          {"method", py::str("quatro")}},
+                                         3,
+                                         args,
+                                         named,
+                                         &options);
+        return RegisterClouds(given[0], given[1], given[2], given[3], options);
+      },
+      register_doc.c_str());
+  module->def(
+      "solve",
+      [](const py::args& args, const py::kwargs& named) {
+        py::dict options;
+        const auto given = TakeArguments(kSolve,
+                                         {{"source_points", {}},
+                                          {"target_points", {}},
+                                          {"method", py::str("quatro")},
+                                          {"preset", py::str("kitti")}},
+                                         4,
+                                         args,
+                                         named,
+                                         &options);
+        return SolveMatches(given[0], given[1], given[2], given[3], options);
+      },
+      solve_doc.c_str());
+}
+
 void BindFunctions(py::module_* module) {
   py::options docs;
   docs.disable_function_signatures();
+  BindRegistration(module);
   GivenAlignment alignment;
-  const std::string register_doc = kRegister + DescribeMethods(true);
-  const std::string solve_doc = kSolve + DescribeMethods(false);
   const std::string align_doc = kAlign + Describe(alignment.Options("vgicp"));
-  module->def("register",
-              &RegisterClouds,
-              py::arg("source"),
-              py::arg("target"),
-              py::arg("preset") = "auto",
-              py::kw_only(),
-              py::arg("method") = "quatro",
-              register_doc.c_str());
-  module->def("solve",
-              &SolveMatches,
-              py::arg("source_points"),
-              py::arg("target_points"),
-              py::arg("method") = "quatro",
-              py::arg("preset") = "kitti",
-              solve_doc.c_str());
-  module->def("align",
-              &AlignClouds,
-              py::arg("source"),
-              py::arg("target"),
-              py::arg("method") = "gicp",
-              py::arg("initial_target_from_source") = py::none(),
-              align_doc.c_str());
+  module->def(
+      "align",
+      [](const py::args& args, const py::kwargs& named) {
+        py::dict options;
+        const auto given =
+            TakeArguments(kAlign,
+                          {{"source", {}},
+                           {"target", {}},
+                           {"method", py::str("gicp")},
+                           {"initial_target_from_source", py::none()}},
+                          4,
+                          args,
+                          named,
+                          &options);
+        return AlignClouds(given[0], given[1], given[2], given[3], options);
+      },
+      align_doc.c_str());
   module->def(
       "read_cloud",
-      &ReadPoints,
-      py::arg("path"),
-      py::arg("point_floats") = 0,
-      "read_cloud(path, point_floats=0)\n--\n\n"
-      "(N, 3) float64 [m] of a .bin, .ply, .pcd, .npy, .xyz, .txt or .csv "
-      "file, or of\none of these with .gz. Points that are not finite and "
-      "points at the origin are\nleft out. A point of a .bin has "
-      "`point_floats` numbers, x, y, z first; 0 infers\nhow many. Raises "
-      "ValueError with what is wrong with the file.");
-  module->def("methods",
-              &MethodDict,
-              "methods()\n--\n\n"
-              "dict: the methods and what each does. Those that work on "
-              "clouds are\nfor register() only.");
-  module->def("presets",
-              &PresetTuple,
-              "presets()\n--\n\n"
-              "tuple of str: sets of options that belong together.");
+      [](const py::args& args, const py::kwargs& named) {
+        const auto given =
+            TakeArguments(kReadCloud,
+                          {{"path", {}}, {"point_floats", py::int_(0)}},
+                          2,
+                          args,
+                          named,
+                          nullptr);
+        return ReadPoints(given[0], given[1]);
+      },
+      kReadCloud);
+  module->def(
+      "methods",
+      [](const py::args& args, const py::kwargs& named) {
+        TakeArguments(kMethods, {}, 0, args, named, nullptr);
+        return MethodDict();
+      },
+      kMethods);
+  module->def(
+      "presets",
+      [](const py::args& args, const py::kwargs& named) {
+        TakeArguments(kPresets, {}, 0, args, named, nullptr);
+        return PresetTuple();
+      },
+      kPresets);
 }
 
 }  // namespace

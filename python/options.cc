@@ -9,16 +9,13 @@
 #include <utility>
 #include <variant>
 
+#include "python/arguments.h"
 #include "python/arrays.h"
 
 namespace quatro {
 namespace {
 
 namespace py = pybind11;
-
-std::string Shown(const py::handle& value) {
-  return py::repr(value).cast<std::string>();
-}
 
 // Sets the field of an option from a Python value.
 class Setter {
@@ -31,7 +28,9 @@ class Setter {
       Refuse("a number");
     }
     *field = PyFloat_AsDouble(value_.ptr());
-    if (PyErr_Occurred()) throw py::error_already_set();
+    if (!PyErr_Occurred()) return;
+    PyErr_Clear();  // A complex number, or an array of several.
+    Refuse("a number");
   }
 
   void operator()(bool* field) const {

@@ -263,11 +263,12 @@ void BindCommon(const char* name, py::class_<Summary>* type) {
   type->def("as_dict", &AsDict, kAsDictDoc);
   type->def(
       "transform",
-      [](const Summary& s, const py::object& points) {
-        return Transform(
-            SolutionOf(s).target_from_source, SolutionOf(s).message, points);
+      [](const Summary& s, const py::args& args, const py::kwargs& named) {
+        return Transform(SolutionOf(s).target_from_source,
+                         SolutionOf(s).message,
+                         args,
+                         named);
       },
-      py::arg("points"),
       kTransformDoc);
   BindStatus(type);
   BindPose(type);

@@ -106,7 +106,8 @@ std::optional<std::vector<int>> FramesOf(
                         ? options.first_frame
                         : scans.begin()->first;
   if (first > last || first < 0) {
-    *error = "first_frame = " + std::to_string(first) + " is after the last";
+    *error = "no frame is left: first_frame = " + std::to_string(first) +
+             " is after the last one, " + std::to_string(last);
     return std::nullopt;
   }
   int previous = first - 1;
@@ -114,8 +115,8 @@ std::optional<std::vector<int>> FramesOf(
     const int num_missing = std::min(scan->first, last) - previous - 1;
     if (num_missing > kMaxMissing) {
       *error = scan->second + ": more than " + std::to_string(kMaxMissing) +
-               " frames before it have no file; move it away, or leave them "
-               "out by first_frame or last_frame";
+               " frames before it have no file; move it away, or leave it "
+               "out with first_frame or last_frame";
       return std::nullopt;
     }
     previous = scan->first;

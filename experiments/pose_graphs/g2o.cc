@@ -3,7 +3,6 @@
 
 #include "experiments/pose_graphs/g2o.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <array>
 #include <charconv>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/pose_graphs/information.h"
 #include "features/base/cloud_text.h"
 #include "features/base/file.h"
 
@@ -90,8 +90,11 @@ class LineReader {
         information(row, column) = information(column, row) = v[k];
       }
     }
-    if (problem_->empty() && information.llt().info() != Eigen::Success) {
-      Refuse("information is not positive definite");
+    if (!problem_->empty()) return information;
+    if (information.isZero(0)) {
+      Refuse("information is zero, so the edge measures nothing; remove it");
+    } else if (!RootOfInformation(information)) {
+      Refuse("information is not positive semi-definite");
     }
     return information;
   }

@@ -26,8 +26,9 @@ namespace quatro {
 // Returns nullopt, with file, line and reason in *error, if a line has any
 // other form, a number is not finite, a number of a pose is beyond 1e9, one of
 // an information matrix is beyond 1e18, a quaternion is farther than 2 % from
-// unit length, an information matrix is not positive definite, an id is used
-// twice or undefined, or the file mixes both dimensions or has no poses.
+// unit length, an information matrix is zero or not positive semi-definite, an
+// id is used twice or undefined, or the file mixes both dimensions or has no
+// poses.
 // Quaternions are normalized.
 std::optional<PoseGraph> ReadG2o(const std::string& path, std::string* error);
 

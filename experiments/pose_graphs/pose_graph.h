@@ -7,7 +7,8 @@
 //   from_from_to = world_from_pose[from]^-1 world_from_pose[to] + noise,    (1)
 //
 // where the noise has covariance information^-1 over (x, y, yaw) or (x, y, z,
-// rotation vector) [m, rad]. In the plane, all rotations are about z and all z
+// rotation vector) [m, rad]; it is unbounded in the null space of the
+// information. In the plane, all rotations are about z and all z
 // are 0.
 
 #ifndef QUATRO_EXPERIMENTS_POSE_GRAPHS_POSE_GRAPH_H_
@@ -33,7 +34,7 @@ struct PoseEdge {
   std::size_t from = 0;  // Index of a pose.
   std::size_t to = 0;
   Rigid3 from_from_to;
-  Eigen::MatrixXd information;  // 3 x 3 or 6 x 6, positive definite.
+  Eigen::MatrixXd information;  // 3 x 3 or 6 x 6; see information.h.
 
   // Edges between consecutive poses are odometry; all others are loop closures.
   bool IsOdometry() const { return to == from + 1; }

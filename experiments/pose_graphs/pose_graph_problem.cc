@@ -3,11 +3,11 @@
 
 #include "experiments/pose_graphs/pose_graph_problem.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 
+#include "experiments/pose_graphs/information.h"
 #include "features/base/stopwatch.h"
 #include "robust/gnc/chi_square.h"
 #include "solvers/ceres/manifolds.h"
@@ -15,17 +15,13 @@
 namespace quatro {
 namespace {
 
-// The U of (1): for information = L L^T, U = L^T. With U = L, |r|^2 would be
-// e^T L^T L e.
-Eigen::MatrixXd RootOf(const Eigen::MatrixXd& information) {
-  return information.llt().matrixU();
-}
-
 template <typename T>
 using Vector2 = Eigen::Matrix<T, 2, 1>;
 template <typename T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
+// `Rows` is 3, or Eigen::Dynamic for fewer rows.
+template <int Rows>
 struct PlanarEdge {
   template <typename T>
   bool operator()(const T* r_i,
@@ -43,15 +39,17 @@ struct PlanarEdge {
         r_i[0] * x + r_i[1] * y - translation.x(),
         r_i[0] * y - r_i[1] * x - translation.y(),
         atan2(cos_yaw * s - sin_yaw * c, cos_yaw * c + sin_yaw * s));
-    Eigen::Map<Vector3<T>> r(residual);
+    Eigen::Map<Eigen::Matrix<T, Rows, 1>> r(residual, root.rows());
     r = root * error;
     return true;
   }
   Eigen::Vector2d translation;
   double cos_yaw, sin_yaw;
-  Eigen::Matrix3d root;
+  Eigen::Matrix<double, Rows, 3> root;  // U in (1).
 };
 
+// `Rows` is 6, or Eigen::Dynamic for fewer rows.
+template <int Rows>
 struct SpatialEdge {
   template <typename T>
   bool operator()(const T* r_i,
@@ -72,28 +70,52 @@ struct SpatialEdge {
     error.template head<3>() =
         i_from_world * step - translation.template cast<T>();
     error.template tail<3>() = two * turn.vec();
-    Eigen::Map<Eigen::Matrix<T, 6, 1>> r(residual);
+    Eigen::Map<Eigen::Matrix<T, Rows, 1>> r(residual, root.rows());
     r = root * error;
     return true;
   }
   Eigen::Vector3d translation;
   Eigen::Quaterniond rotation;
-  Eigen::Matrix<double, 6, 6> root;
+  Eigen::Matrix<double, Rows, 6> root;  // U in (1).
 };
 
-ceres::CostFunction* MakeEdge(const PoseEdge& edge, int dimension) {
-  const Rigid3& measured = edge.from_from_to;
-  if (dimension == 2) {
-    return new ceres::AutoDiffCostFunction<PlanarEdge, 3, 2, 2, 2, 2>(
-        new PlanarEdge{measured.translation.head<2>(),
-                       measured.rotation(0, 0),
-                       measured.rotation(1, 0),
-                       RootOf(edge.information)});
+template <int Rows, int... BlockSizes, typename Edge>
+ceres::CostFunction* MakeCost(Edge* edge) {
+  if constexpr (Rows == Eigen::Dynamic) {
+    return new ceres::AutoDiffCostFunction<Edge, ceres::DYNAMIC, BlockSizes...>(
+        edge, static_cast<int>(edge->root.rows()));
+  } else {
+    return new ceres::AutoDiffCostFunction<Edge, Rows, BlockSizes...>(edge);
   }
-  return new ceres::AutoDiffCostFunction<SpatialEdge, 6, 4, 3, 4, 3>(
-      new SpatialEdge{measured.translation,
-                      Eigen::Quaterniond(measured.rotation),
-                      RootOf(edge.information)});
+}
+
+template <int Rows>
+ceres::CostFunction* MakePlanarEdge(const Rigid3& measured,
+                                    const Eigen::MatrixXd& root) {
+  return MakeCost<Rows, 2, 2, 2, 2>(
+      new PlanarEdge<Rows>{measured.translation.head<2>(),
+                           measured.rotation(0, 0),
+                           measured.rotation(1, 0),
+                           root});
+}
+
+template <int Rows>
+ceres::CostFunction* MakeSpatialEdge(const Rigid3& measured,
+                                     const Eigen::MatrixXd& root) {
+  return MakeCost<Rows, 4, 3, 4, 3>(new SpatialEdge<Rows>{
+      measured.translation, Eigen::Quaterniond(measured.rotation), root});
+}
+
+ceres::CostFunction* MakeEdge(const Rigid3& measured,
+                              int dimension,
+                              const Eigen::MatrixXd& root) {
+  const bool is_full = root.rows() == root.cols();
+  if (dimension == 2) {
+    return is_full ? MakePlanarEdge<3>(measured, root)
+                   : MakePlanarEdge<Eigen::Dynamic>(measured, root);
+  }
+  return is_full ? MakeSpatialEdge<6>(measured, root)
+                 : MakeSpatialEdge<Eigen::Dynamic>(measured, root);
 }
 
 ceres::LossFunction* MakeLoss(LoopLoss loss, double bound) {
@@ -152,8 +174,6 @@ PoseGraphProblem::PoseGraphProblem(const PoseGraph& graph,
       rotations_(graph.world_from_pose.size()),
       translations_(graph.world_from_pose.size()) {
   const int n = graph.dimension;
-  const double bound =
-      ChiSquareBound(options.inlier_probability, n == 2 ? 3 : 6);
   ceres::Manifold* manifold = nullptr;  // Shared by all; problem_ owns it.
   if (n == 2) {
     manifold = new UnitCircleManifold;
@@ -171,8 +191,11 @@ PoseGraphProblem::PoseGraphProblem(const PoseGraph& graph,
     problem_.AddParameterBlock(translations_[i].data(), n);
   }
   for (const PoseEdge& edge : graph.edges) {
+    const auto root = RootOfInformation(edge.information);
+    const double bound = ChiSquareBound(options.inlier_probability,
+                                        static_cast<int>(root->rows()));
     ids_.push_back(problem_.AddResidualBlock(
-        MakeEdge(edge, n),
+        MakeEdge(edge.from_from_to, n, *root),
         edge.IsOdometry() ? nullptr : MakeLoss(options.loss, bound),
         rotations_[edge.from].data(),
         translations_[edge.from].data(),

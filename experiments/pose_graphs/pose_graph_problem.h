@@ -5,6 +5,7 @@
 //   r = U (R_i^T (t_j - t_i) - t_ij,  log(R_ij^T R_i^T R_j)),
 //   U^T U = information, so that |r|^2 = e^T information e,                 (1)
 //
+// and one residual for each direction that the edge measures (information.h).
 // In space the logarithm is 2 vec(q), as in the example of Ceres. A pose has
 // two parameter blocks: a rotation on its manifold (the unit circle in the
 // plane, unit quaternions in space) and a translation. If the graph fixes no

@@ -136,6 +136,8 @@ bool IsPartOfWord(char c) {
 // Options that may occur anywhere in a message of the library, and their flags.
 constexpr std::pair<const char*, const char*> kOptionsInMessages[] = {
     {"point_floats", "point_floats"},
+    {"first_frame", "first_frame"},
+    {"last_frame", "last_frame"},
     {"ins_mode", "ins_mode"},
     {"source_rpy", "source_rpy_deg"},
     {"target_rpy", "target_rpy_deg"},
@@ -153,6 +155,32 @@ void ReplaceWord(std::string_view word,
         (end < message->size() && IsPartOfWord((*message)[end]));
     if (!is_part) message->replace(i, word.size(), replacement);
     i += is_part ? word.size() : replacement.size();
+  }
+}
+
+// Replaces "name = " by "--name=" wherever `name` is a flag, at the start of
+// the message or after a space or a bracket. "num_pairs" stands for the flag
+// --pairs if there is no --num_pairs.
+void ReplaceAssignments(std::string* message) {
+  constexpr std::string_view kIs = " = ", kNumber = "num_";
+  std::size_t is = 0;
+  while ((is = message->find(kIs, is)) != std::string::npos) {
+    std::size_t begin = is;
+    while (begin > 0 && IsPartOfWord((*message)[begin - 1])) --begin;
+    std::string name = message->substr(begin, is - begin);
+    if (!IsFlag(name) && name.starts_with(kNumber)) {
+      name.erase(0, kNumber.size());
+    }
+    const bool follows_quote =
+        begin > 0 && std::string_view(" [(").find((*message)[begin - 1]) ==
+                         std::string_view::npos;
+    if (!IsFlag(name) || follows_quote) {
+      is += kIs.size();
+      continue;
+    }
+    const std::string flag = "--" + name + "=";
+    message->replace(begin, is + kIs.size() - begin, flag);
+    is = begin + flag.size();
   }
 }
 
@@ -184,14 +212,9 @@ std::string NearestName(const std::string& name,
 }
 
 std::string SpellAsFlags(std::string message) {
-  constexpr std::string_view kIs = " = ", kMethod = "method ";
-  if (message.starts_with("num_threads = ") && IsFlag("threads")) {
-    message.erase(0, 4);
-  }
-  const std::size_t begin = message.find(kIs);
-  if (begin != std::string::npos && IsFlag(message.substr(0, begin))) {
-    message = "--" + message.replace(begin, kIs.size(), "=");
-  } else if (message.starts_with(kMethod) && IsFlag("method")) {
+  constexpr std::string_view kMethod = "method ";
+  ReplaceAssignments(&message);
+  if (message.starts_with(kMethod) && IsFlag("method")) {
     message = "--" + message.replace(0, kMethod.size(), "method=");
   }
   for (const auto& [option, flag] : kOptionsInMessages) {

@@ -33,7 +33,8 @@ std::string NearestName(const std::string& name,
 // Replaces the names of options in a message of the library by the flags of
 // this program, if it has them: "voxel_size = -1, must be > 0" becomes
 // "--voxel_size=-1, must be > 0", and "method fgr works" becomes
-// "--method=fgr works".
+// "--method=fgr works". "num_pairs = 0" becomes "--pairs=0" if there is no flag
+// --num_pairs.
 std::string SpellAsFlags(std::string message);
 
 }  // namespace quatro

@@ -19,6 +19,7 @@
 #include "experiments/odometry/odometry_methods.h"
 #include "experiments/odometry/outside_drift.h"
 #include "experiments/odometry/table_two.h"
+#include "experiments/programs/bad_flag.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
 #include "experiments/programs/progress_line.h"
@@ -85,10 +86,11 @@ std::string FileOrDefault(const std::string& given,
 void TellLostScans(const quatro::OdometryRun& run) {
   for (std::size_t i = 0; i < run.steps.size(); ++i) {
     if (run.steps[i].status != quatro::OdometryStatus::kLost) continue;
-    std::fprintf(stderr,
-                 "frame %d lost: %s\n",
-                 run.frames[i],
-                 quatro::OneLine(run.steps[i].message).c_str());
+    std::fprintf(
+        stderr,
+        "frame %d lost: %s\n",
+        run.frames[i],
+        quatro::SpellAsFlags(quatro::OneLine(run.steps[i].message)).c_str());
   }
 }
 

@@ -3,9 +3,11 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -162,6 +164,36 @@ bool IsProtocolValid(std::string* error) {
   return quatro::UsesAllFlags(FLAGS_protocol, kFlagUses, error);
 }
 
+// Angles are flags in degrees but options in radians, so their ranges are
+// checked here; the options check the same ranges again.
+bool AreAnglesValid(std::string* error) {
+  struct Angle {
+    const char* flag;
+    double value;
+    double lowest, highest;  // [deg]
+  };
+  const Angle angles[] = {
+      {"slope_deg", FLAGS_slope_deg, -20.0, 20.0},
+      {"tilt_sigma_deg", FLAGS_tilt_sigma_deg, 0.0, 11.0},
+      {"ins_std_deg", FLAGS_ins_std_deg, 0.0, 11.0},
+      {"ins_noise_deg", FLAGS_ins_noise_deg, 0.0, 11.0},
+      {"ins_bias_deg", FLAGS_ins_bias_deg, 0.0, 11.0},
+      {"max_yaw_deg", FLAGS_max_yaw_deg, 0.0, 180.0},
+      {"max_tilt_deg", FLAGS_max_tilt_deg, 0.0, 17.0},
+      {"min_tilt_deg", FLAGS_min_tilt_deg, 0.0, FLAGS_max_tilt_deg}};
+  for (const auto& [flag, value, lowest, highest] : angles) {
+    if (value >= lowest && value <= highest) continue;
+    std::ostringstream range;
+    range << "in [" << lowest << ", " << highest << "]";
+    if (flag == std::string_view("min_tilt_deg")) {
+      range << ", at most --max_tilt_deg";
+    }
+    *error = quatro::FlagProblem(flag, value, range.str());
+    return false;
+  }
+  return true;
+}
+
 // For a sequence that was not completed.
 int FailOrStop(const std::string& error) {
   if (!quatro::WasAskedToStop()) return quatro::Fail(error);
@@ -191,6 +223,13 @@ std::optional<quatro::PairSetOptions> SetOfFlags() {
 }
 
 int WriteDrive() {
+  const auto names = quatro::DriveNames();
+  if (std::ranges::find(names, FLAGS_drive) == names.end()) {
+    std::string all;
+    for (const std::string& name : names) all += " " + name;
+    return quatro::Fail(
+        quatro::FlagProblem("drive", FLAGS_drive, "one of" + all));
+  }
   quatro::DriveOptions options;
   options.name = FLAGS_drive;
   options.seed = FLAGS_seed;
@@ -234,7 +273,7 @@ int Main(int argc, char** argv) {
   if (!quatro::CanBeFolder({"output", FLAGS_output}, &error)) {
     return Fail(error);
   }
-  if (!IsProtocolValid(&error)) return Fail(error);
+  if (!IsProtocolValid(&error) || !AreAnglesValid(&error)) return Fail(error);
   if (FLAGS_protocol == "pairs") {
     const auto set = SetOfFlags();
     if (set) return WriteSets({*set});

@@ -115,8 +115,10 @@ bool SimulateSequenceOptions::IsValid(std::string* error) const {
   } else if (!(frame_spacing > 0.0)) {
     problem << "frame_spacing = " << frame_spacing << ", must be > 0";
   } else if (!(num_frames * frame_spacing <= kMaxTravel)) {
-    problem << "num_frames * frame_spacing = " << num_frames * frame_spacing
-            << ", must be <= " << kMaxTravel;
+    problem << "num_frames = " << num_frames
+            << " with frame_spacing = " << frame_spacing << " is a drive of "
+            << num_frames * frame_spacing << " m, must be <= " << kMaxTravel
+            << " m";
   } else {
     CheckCommon(*this, &problem);
   }

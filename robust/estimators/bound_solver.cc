@@ -88,9 +88,9 @@ PoseSummary SolveWithin(const ColumnSolver& solve,
     summary.num_matches = outside.num_matches;
     summary.notes.push_back(
         {"bounds",
-         "a larger consensus, of " +
+         "a pose outside of the bounds has more inliers, " +
              std::to_string(outside.num_translation_inliers) +
-             " matches, lies outside of the bounds"});
+             "; widen the bounds unless they are certain"});
     return summary;
   }
   RefuseOutside(bounds, noise_bound, &outside);
@@ -106,7 +106,7 @@ void RefuseOutside(const PoseBounds& bounds,
       bounds.Contain(*summary->target_from_source, noise_bound)) {
     return;
   }
-  summary->message = "the best pose lies outside of the bounds given: " +
+  summary->message = "the best pose is outside of the bounds: it is " +
                      bounds.Describe(*summary->target_from_source) +
                      "; widen the bounds or give another guess";
   summary->termination = PoseTermination::kInsufficient;
@@ -135,9 +135,10 @@ PoseSolver BoundSolver(PoseSolver solver,
     }
     if (!summary.IsUsable() &&
         summary.termination != PoseTermination::kInvalidInput) {
-      summary.message +=
-          "; within the bounds given, " + std::to_string(columns.size()) +
-          " of " + std::to_string(source.cols()) + " matches can be inliers";
+      summary.message += "; the bounds leave " +
+                         std::to_string(columns.size()) + " of " +
+                         std::to_string(source.cols()) +
+                         " matches: widen them or give another guess";
     }
     return summary;
   };

@@ -35,8 +35,10 @@ void ChooseTims(TimLayout layout,
 void EndInsufficient(const std::string& needs, PoseSummary* summary) {
   summary->termination = PoseTermination::kInsufficient;
   std::ostringstream message;
-  message << needs << "; the largest consistent set of " << summary->num_matches
-          << " matches has " << summary->num_consistent;
+  message << needs << ", but at most " << summary->num_consistent << " of "
+          << summary->num_matches
+          << " matches are consistent; use larger radii, a larger noise bound "
+             "or other scans";
   summary->message = message.str();
 }
 

@@ -41,9 +41,11 @@ bool PoseBounds::IsValid(std::string* error) const {
   std::ostringstream problem;
   const Eigen::Matrix3d& rotation = guess.rotation;
   if (!guess.translation.allFinite() || !rotation.allFinite()) {
-    problem << "bounds.guess must be finite";
+    problem << "bounds.guess has a number that is not finite, must be a rigid "
+               "motion target_from_source";
   } else if (!rotation.isUnitary(1e-6) || rotation.determinant() < 0.0) {
-    problem << "bounds.guess must have a rotation: orthonormal, determinant 1";
+    problem << "bounds.guess has no rotation in its first three columns, must "
+               "be orthonormal to 1e-6 with determinant 1";
   } else if (!(max_translation >= 0.0)) {
     problem << "bounds.max_translation = " << max_translation
             << ", must be >= 0; infinity for none";
@@ -106,22 +108,15 @@ std::vector<Eigen::Index> PoseBounds::PossibleInliers(
   return columns;
 }
 
-PoseBounds PoseBounds::InFrame(const Rigid3& frame_from_target) const {
-  PoseBounds bounds = *this;
-  bounds.guess = frame_from_target * guess;
-  bounds.up = frame_from_target.rotation * up;
-  return bounds;
-}
-
 std::string PoseBounds::Describe(const Rigid3& target_from_source) const {
   const Step step = StepFromGuess(*this, target_from_source);
   std::ostringstream text;
   text.precision(3);
   text << step.translation << " m, " << Degrees(std::abs(step.rotation.yaw))
        << " deg of yaw and " << Degrees(step.rotation.tilt)
-       << " deg of tilt from the guess, at most " << max_translation << " m, "
-       << Degrees(max_yaw) << " deg and " << Degrees(max_tilt)
-       << " deg are allowed";
+       << " deg of tilt from the guess; the bounds allow " << max_translation
+       << " m, " << Degrees(max_yaw) << " deg and " << Degrees(max_tilt)
+       << " deg";
   return text.str();
 }
 

@@ -73,13 +73,9 @@ struct PoseBounds {
                                             const PointsRef& target,
                                             double noise_bound) const;
 
-  // The equivalent bounds on frame_from_source = frame_from_target *
-  // target_from_source.
-  PoseBounds InFrame(const Rigid3& frame_from_target) const;
-
   // How far the pose is from the guess, and how far it may be. For example
-  // "34.2 m, 12 deg of yaw and 1 deg of tilt from the guess, at most 5 m, 20
-  // deg and 5 deg are allowed".
+  // "34.2 m, 12 deg of yaw and 1 deg of tilt from the guess; the bounds allow 5
+  // m, 20 deg and 5 deg".
   std::string Describe(const Rigid3& target_from_source) const;
 };
 

@@ -212,8 +212,8 @@ QuatroSummary SolveQuatro(const PointsRef& source,
     summary.termination = PoseTermination::kDegenerate;
     summary.message =
         "the consistent matches do not constrain the heading: they are at one "
-        "place, on a vertical line, or not consistent under any rotation about "
-        "the vertical";
+        "place or on a vertical line, or no rotation about the vertical fits "
+        "them; use more matches, and see whether z is up in both scans";
     return summary;
   }
   summary.yaw = *yaw;

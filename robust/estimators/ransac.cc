@@ -233,12 +233,17 @@ bool AreValidNormals(const PointsRef& source,
                      const MatchedNormals* normals,
                      std::string* error) {
   if (normals == nullptr) {
-    *error = "samples of a point and its normal need normals";
+    *error =
+        "samples of a point and its normal need normals; pass one unit normal "
+        "of each cloud per match";
   } else if (normals->source.cols() != source.cols() ||
              normals->target.cols() != target.cols()) {
-    *error = "there are not as many normals as matches";
+    *error = std::to_string(normals->source.cols()) + " source normals and " +
+             std::to_string(normals->target.cols()) + " target normals for " +
+             std::to_string(source.cols()) +
+             " matches; equal numbers are required";
   } else if (!normals->source.allFinite() || !normals->target.allFinite()) {
-    *error = "a normal is not finite";
+    *error = "a normal is not finite; leave out matches without a normal";
   } else {
     return true;
   }
@@ -324,9 +329,11 @@ RansacSummary SolveRansac(const PointsRef& source,
       !ConstrainPose(problem, problem.near, options.minimal);
   if (are_too_few && !are_all_alike) {
     std::ostringstream message;
-    message << "a pose needs at least " << num_needed
-            << " inliers; no such pose was found in " << summary.num_iterations
-            << " samples of " << summary.num_matches << " matches";
+    message << "no pose with at least " << num_needed
+            << " inliers was found in " << summary.num_iterations
+            << " samples of " << summary.num_matches
+            << " matches; use a larger noise bound, more iterations or other "
+               "matches";
     summary.message = message.str();
     return summary;
   }

@@ -37,8 +37,10 @@ class AnyVertical {
                "matches",
                one_rung);
     }
-    if (!IsDone()) TryOther(LevelByNormals(clouds_), "normals", prepared_);
-    if (!best_) Try(given, "given", prepared_);  // No other frames.
+    Prepared any_side = prepared_;
+    any_side.options.search.allows_upside_down = true;
+    if (!IsDone()) TryOther(LevelByNormals(clouds_), "normals", any_side);
+    if (!best_) Try(given, "given", any_side);  // No other frames.
     best_->total_seconds += other_seconds_;
     return *std::move(best_);
   }

@@ -78,7 +78,8 @@ struct RegistrationOptions {
   int num_threads = 1;  // 0: all cores. Never changes the answer.
   std::uint64_t seed = 0;
 
-  // Called when a stage ends, with its name and duration.
+  // Called when a stage ends, with its name and duration, by the thread that
+  // called. An exception that it throws ends the registration.
   std::function<void(const StageTime&)> progress;
 
   // Returns false and says why in *error if a value is out of range.

@@ -326,9 +326,13 @@ std::vector<PoseCandidate> PoseSearch::FindAmong(
     candidate.log_likelihood_ratio +=
         SegmentRatio(candidate.target_from_source);
   }
+  // Upside down, flat ground alone has as many inliers as the whole scene of a
+  // mirrored scan.
   const PoseBounds wide = Widened(bounds, noise_bound_);
   std::erase_if(candidates, [&](const PoseCandidate& candidate) {
-    return !wide.Contain(candidate.target_from_source, noise_bound_);
+    const Rigid3& pose = candidate.target_from_source;
+    return !wide.Contain(pose, noise_bound_) ||
+           (!options_.allows_upside_down && pose.rotation(2, 2) < 0.0);
   });
   const auto score = [&](PoseCandidate* candidate) {
     candidate->geometry = scorer_.At(candidate->target_from_source);

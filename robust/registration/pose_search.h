@@ -57,6 +57,10 @@ struct PoseSearchOptions {
   // Whether the lengths are those of the first factor. Set by Register().
   bool is_first_scale = true;
 
+  // Whether a candidate may turn a scan upside down, because the verticals were
+  // found and not stated. Set by RegisterByAnyVertical().
+  bool allows_upside_down = false;
+
   // No rung or scale is started after this time [s]. If it is finite, the
   // result depends on the speed of the machine.
   double time_limit_seconds = std::numeric_limits<double>::infinity();

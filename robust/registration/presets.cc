@@ -73,6 +73,10 @@ Points Thinned(const Points& points) {
                 Eigen::seq(0, num - 1, std::max<Eigen::Index>(1, step)));
 }
 
+double WidthOf(const Points& points) {
+  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+}
+
 // The logarithm of the least of 256 sizes in (low, high] at which the points
 // keep at most kWantedVoxels, or `high`. Most points are on surfaces, so their
 // number falls with the square of the size. This predicts which size to try
@@ -105,8 +109,7 @@ double SizeForWantedVoxels(const Points& points) {
   constexpr double kUsualMin = 0.01;  // [m]
   constexpr double kUsualMax = 10.0;  // [m]
   constexpr double kMinShare = 1e-4;  // Share of the extent of a smaller cloud.
-  const double extent =
-      (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+  const double extent = WidthOf(points);
   double high = FindSize(points, std::log(kUsualMin), std::log(kUsualMax));
   if (std::exp(high) >= kUsualMax && extent > kUsualMax) {
     high = FindSize(points, std::log(kUsualMax), std::log(extent));
@@ -115,6 +118,13 @@ double SizeForWantedVoxels(const Points& points) {
     high = FindSize(points, std::log(kMinShare * extent), high);
   }
   return std::exp(high);
+}
+
+// Whether the cloud has points, and distances that can be squared.
+bool HasLengths(const Points& points) {
+  if (points.cols() == 0) return false;
+  const double width = WidthOf(points);
+  return !(width > 0.0 && width < kMinCloudWidth);
 }
 
 // Median distance of a point from its nearest neighbor [m].
@@ -175,7 +185,8 @@ std::optional<RegistrationOptions> MakePreset(const std::string& name) {
 
 RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target) {
-  if (source.points.cols() == 0 || target.points.cols() == 0) {
+  // The front end refuses clouds without points or width.
+  if (!HasLengths(source.points) || !HasLengths(target.points)) {
     return MakeAutoOptions(0.3);
   }
   const Points p = Thinned(source.points);

@@ -90,39 +90,6 @@ struct PairResidual {
   double sqrt_weight = 1.0;
 };
 
-// Equation (1) for a rotation about z, with analytic derivatives.
-class AnalyticYawResidual final : public ceres::SizedCostFunction<3, 2, 3> {
- public:
-  // Takes the same pair as the residual that is differentiated automatically.
-  explicit AnalyticYawResidual(const PairResidual<TurnAboutZ>& pair)
-      : pair_(pair) {}
-
-  bool Evaluate(double const* const* parameters,
-                double* residual,
-                double** jacobians) const override {
-    pair_(parameters[0], parameters[1], residual);
-    if (jacobians == nullptr) return true;
-
-    const double u = pair_.sqrt_weight;
-    const Eigen::Vector3d& p = pair_.source;
-    if (jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, 3, 2, Eigen::RowMajor>> wrt_turn(
-          jacobians[0]);
-      wrt_turn << -u * p.x(), u * p.y(),  //
-          -u * p.y(), -u * p.x(),         //
-          0.0, 0.0;
-    }
-    if (jacobians[1] != nullptr) {
-      Eigen::Map<Eigen::Matrix3d> wrt_translation(jacobians[1]);
-      wrt_translation = -u * Eigen::Matrix3d::Identity();
-    }
-    return true;
-  }
-
- private:
-  PairResidual<TurnAboutZ> pair_;
-};
-
 }  // namespace quatro
 
 #endif  // QUATRO_SOLVERS_CERES_CERES_RESIDUALS_H_

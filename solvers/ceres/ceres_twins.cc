@@ -119,12 +119,10 @@ struct Minimum {
   Eigen::Matrix<double, N, N> curvature;
 };
 
-// The shift is free if N > Group::kFreedoms. `make_cost` returns a new cost
-// function, which Ceres takes over.
-template <int N, typename Group, typename MakeCost>
+// The shift is free if N > Group::kFreedoms.
+template <int N, typename Group>
 Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
-                           const std::vector<Motion<Group>>& starts,
-                           const MakeCost& make_cost) {
+                           const std::vector<Motion<Group>>& starts) {
   Minimum<N, Group> minimum;
   bool is_finite = std::isfinite(problem.total_weight);
   for (const auto& pair : problem.pairs) {
@@ -132,7 +130,8 @@ Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
                 pair.target.allFinite() && std::isfinite(pair.sqrt_weight);
   }
   if (problem.pairs.empty() || !is_finite) {
-    minimum.message = is_finite ? "No pair has weight." : "Not finite.";
+    minimum.message = is_finite ? "all weights are zero, so nothing is solved"
+                                : "a point or a weight is not finite";
     return minimum;
   }
 
@@ -156,7 +155,9 @@ Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
       ceres_problem.SetParameterBlockConstant(motion.shift.data());
     }
     for (const auto& pair : problem.pairs) {
-      ceres_problem.AddResidualBlock(make_cost(pair),
+      ceres_problem.AddResidualBlock(new
+                                     typename PairResidual<Group>::CostFunction(
+                                         new PairResidual<Group>(pair)),
                                      nullptr,
                                      motion.rotation.data(),
                                      motion.shift.data());
@@ -195,11 +196,6 @@ Minimum<N, Group> Minimize(const PairProblem<Group>& problem,
   minimum.curvature = problem.total_weight * at.hessian;
   return minimum;
 }
-
-const auto kByAutoDiff = []<typename Group>(const PairResidual<Group>& pair) {
-  return new
-      typename PairResidual<Group>::CostFunction(new PairResidual<Group>(pair));
-};
 
 std::vector<Motion<TurnAboutZ>> YawStarts(double yaw) {
   std::vector<Motion<TurnAboutZ>> starts(2);
@@ -251,20 +247,14 @@ Eigen::Matrix3d RotationOf(const Motion<Turn>& motion) {
 CeresTwin<YawEstimate> SolveYawByCeres(const PointsRef& source,
                                        const PointsRef& target,
                                        const WeightsRef& weights,
-                                       double initial_target_from_source,
-                                       YawDerivative derivative) {
+                                       double initial_target_from_source) {
   auto problem = MakeProblem<TurnAboutZ>(source, target, weights);
   for (auto& pair : problem.pairs) {
     pair.source.z() = 0.0;
     pair.target.z() = 0.0;
   }
-  const auto starts = YawStarts(initial_target_from_source);
-  const auto by_hand = [](const PairResidual<TurnAboutZ>& pair) {
-    return new AnalyticYawResidual(pair);
-  };
-  const auto minimum = derivative == YawDerivative::kAnalytic
-                           ? Minimize<1>(problem, starts, by_hand)
-                           : Minimize<1>(problem, starts, kByAutoDiff);
+  const auto minimum =
+      Minimize<1>(problem, YawStarts(initial_target_from_source));
 
   CeresTwin<YawEstimate> twin{minimum.is_usable, {}, minimum.message};
   if (!minimum.is_usable) return twin;
@@ -280,8 +270,8 @@ CeresTwin<RotationEstimate> SolveRotationByCeres(
     const WeightsRef& weights,
     const Eigen::Matrix3d& initial_target_from_source) {
   const auto problem = MakeProblem<Turn>(source, target, weights);
-  const auto minimum = Minimize<3>(
-      problem, RotationStarts(initial_target_from_source), kByAutoDiff);
+  const auto minimum =
+      Minimize<3>(problem, RotationStarts(initial_target_from_source));
 
   CeresTwin<RotationEstimate> twin{minimum.is_usable, {}, minimum.message};
   if (!minimum.is_usable) return twin;
@@ -300,7 +290,7 @@ CeresTwin<YawTranslationEstimate> SolveYawTranslationByCeres(
   MoveOrigins(problem);
   auto starts = YawStarts(Yaw(initial_target_from_source.rotation));
   SetShifts(problem, initial_target_from_source, starts);
-  const auto minimum = Minimize<4>(problem, starts, kByAutoDiff);
+  const auto minimum = Minimize<4>(problem, starts);
 
   CeresTwin<YawTranslationEstimate> twin{
       minimum.is_usable, {}, minimum.message};
@@ -322,7 +312,7 @@ CeresTwin<RigidEstimate> SolvePoseByCeres(
   MoveOrigins(problem);
   auto starts = RotationStarts(initial_target_from_source.rotation);
   SetShifts(problem, initial_target_from_source, starts);
-  const auto minimum = Minimize<6>(problem, starts, kByAutoDiff);
+  const auto minimum = Minimize<6>(problem, starts);
 
   CeresTwin<RigidEstimate> twin{minimum.is_usable, {}, minimum.message};
   if (!minimum.is_usable) return twin;

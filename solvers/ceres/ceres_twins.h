@@ -57,17 +57,12 @@ struct CeresTwin {
   std::string message = "not solved";  // Why Ceres stopped.
 };
 
-// How the derivative of the yaw residual is computed.
-enum class YawDerivative { kAutomatic, kAnalytic };
-
 // Solves (1) of solvers/closed_form/yaw.h from the given start [rad]. Here and
 // below, sizes are those of the closed forms, and weights are >= 0.
-CeresTwin<YawEstimate> SolveYawByCeres(
-    const PointsRef& source,
-    const PointsRef& target,
-    const WeightsRef& weights,
-    double initial_target_from_source = 0.0,
-    YawDerivative derivative = YawDerivative::kAutomatic);
+CeresTwin<YawEstimate> SolveYawByCeres(const PointsRef& source,
+                                       const PointsRef& target,
+                                       const WeightsRef& weights,
+                                       double initial_target_from_source = 0.0);
 
 // Solves (1) of solvers/closed_form/rotation.h from the given start.
 CeresTwin<RotationEstimate> SolveRotationByCeres(

@@ -92,14 +92,13 @@ std::string UnobservableDirection::Describe() const {
                                " through " + Text(point, 1);
   switch (reason) {
     case UnobservableReason::kNoData:
-      return text + ": no match depends on it, unbounded";
+      return text + ": no inlier constrains it";
     case UnobservableReason::kWithinNoise:
-      return text +
-             ": its effect on the matches is within the noise, unbounded";
+      return text + ": it changes the inliers by less than their noise";
     case UnobservableReason::kUncertain:
       return text + ": " + Text(freedom, standard_deviation);
     case UnobservableReason::kAssumed:
-      return text + ": not estimated, assumed with " +
+      return text + ": not estimated, but assumed with " +
              Text(freedom, standard_deviation);
     case UnobservableReason::kNoSurface:
       break;

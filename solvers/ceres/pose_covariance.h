@@ -118,7 +118,7 @@ struct PoseCovariance {
   // another cost, and the covariance is that of the minimum.
   double offset = 0.0;
 
-  std::string message = "no covariance was asked for";
+  std::string message = "no covariance was computed";
 };
 
 // Column i of `source` is matched with column i of `target` [m]. All matches

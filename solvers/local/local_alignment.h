@@ -85,7 +85,7 @@ struct AlignmentIteration {
 // The pose and the iterations that led to it.
 struct AlignmentSummary {
   AlignmentTermination termination = AlignmentTermination::kInvalidInput;
-  std::string message = "nothing was tried";
+  std::string message = "the alignment was not run";
 
   // Set iff kConverged or kNotConverged.
   std::optional<Rigid3> target_from_source;

@@ -33,15 +33,16 @@ struct MixedHash {
 class VoxelMap {
  public:
   VoxelMap(const DescribedCloud& cloud, double voxel_size, double epsilon)
-      : points_(cloud.points()), voxel_size_(voxel_size) {
-    if (points_.cols() == 0) return;
-    first_cell_ = Cell(points_.rowwise().minCoeff());
-    last_cell_ = Cell(points_.rowwise().maxCoeff());
+      : voxel_size_(voxel_size) {
+    const Points& points = cloud.points();
+    if (points.cols() == 0) return;
+    first_cell_ = Cell(points.rowwise().minCoeff());
+    last_cell_ = Cell(points.rowwise().maxCoeff());
     CHECK((last_cell_ - first_cell_).maxCoeff() < kMaxCells);
     // The mean is updated, not summed, so that large coordinates keep their
     // digits.
-    for (Eigen::Index j = 0; j < points_.cols(); ++j) {
-      const Eigen::Vector3d point = points_.col(j);
+    for (Eigen::Index j = 0; j < points.cols(); ++j) {
+      const Eigen::Vector3d point = points.col(j);
       Voxel& voxel = voxels_[Key(Cell(point))];
       voxel.count += 1.0;
       voxel.mean += (point - voxel.mean) / voxel.count;
@@ -73,7 +74,6 @@ class VoxelMap {
     return key;
   }
 
-  const Points& points_;
   double voxel_size_;
   Eigen::Vector3d first_cell_ = Eigen::Vector3d::Constant(1.0);
   Eigen::Vector3d last_cell_ = Eigen::Vector3d::Constant(-1.0);

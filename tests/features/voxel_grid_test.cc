@@ -184,6 +184,17 @@ TEST(SampleVoxels, RefusesAStrayPointAndNamesTheRemedy) {
   }
 }
 
+TEST(SampleVoxels, RefusesACloudWhoseDistancesCannotBeSquared) {
+  const Points points = RandomPoints(100, 1.0, 1);
+  EXPECT_THAT(ErrorOf(1e-300 * points, 0.3),
+              HasSubstr("m wide, must be at least 1e-100 m"));
+  std::string error;
+  EXPECT_TRUE(SampleVoxels(1e-99 * points, 0.3, &error)) << error;
+  // Copies of one point.
+  EXPECT_TRUE(SampleVoxels(Points::Constant(3, 2, 1e-300), 0.3, &error))
+      << error;
+}
+
 TEST(SampleVoxels, RefusesAVoxelSizeSoSmallThatCellsOverflow) {
   for (const Eigen::Index axis : {0, 1, 2}) {
     Points points = Points::Zero(3, 2);

@@ -106,7 +106,8 @@ def test_rows_on_top_of_each_other_are_copied():
      'source_points has dtype complex128, must be real numbers'),
     (np.zeros((100, 3), dtype=bool), 'source_points has dtype bool, must be real numbers'),
     ([['a', 'b', 'c']], 'source_points has dtype <U1, must be real numbers'),
-    (None, 'source_points has dtype object, must be real numbers'),
+    (None, 'source_points = None, must be an array of real numbers, (N, 3)'),
+    ([[1, 2, 3], [4]], 'source_points = [[1, 2, 3], [4]], must be an array of real numbers, (N, 3)'),
 ])
 def test_other_shapes_and_types_are_refused(given, text):
     with pytest.raises(ValueError) as error:

@@ -39,7 +39,7 @@ def test_bounds_without_a_pose_say_so():
     source, target = two_poses(1)
     answer = quatro.solve(source, target, max_translation=1.0, max_yaw_deg=1.0)
     assert answer.target_from_source is None and answer.status == 'insufficient'
-    assert 'within the bounds given' in answer.reason or 'outside of the bounds' in answer.reason
+    assert 'the bounds leave' in answer.reason or 'outside of the bounds' in answer.reason
     with pytest.raises(ValueError, match='there is no pose to transform by'):
         answer.transform(source)
 

@@ -4,6 +4,7 @@
 
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
@@ -209,6 +210,78 @@ def test_a_name_of_another_type_is_refused_in_one_line(wrong):
         with pytest.raises(TypeError) as error:
             function(SOURCE, TARGET, preset=wrong)
         assert str(error.value) == 'preset = %r, must be a str' % (wrong,)
+
+
+@pytest.mark.parametrize('function, arguments, options, text', [
+    (quatro.register, (), {}, 'register() needs source; call it as register(source, target, '
+                              'preset="auto", *, method="quatro", **options)'),
+    (quatro.register, (SOURCE,), {}, 'register() needs target; call it as '),
+    (quatro.register, (SOURCE, TARGET, 'kitti', 'quatro'), {},
+     'register() takes at most 3 arguments without a name, not 4; call it as '),
+    (quatro.register, (SOURCE, TARGET), {'source': SOURCE},
+     'register() was given source twice; call it as '),
+    (quatro.solve, (SOURCE,), {}, 'solve() needs target_points; call it as '),
+    (quatro.solve, (SOURCE, TARGET, 'quatro', 'kitti', 1), {}, 'solve() takes at most 4 '),
+    (quatro.align, (SOURCE,), {}, 'align() needs target; call it as '),
+    (quatro.align, (SOURCE, TARGET, 'icp', np.eye(4), 3), {}, 'align() takes at most 4 '),
+    (quatro.read_cloud, (), {}, 'read_cloud() needs path; call it as '
+                                'read_cloud(path, point_floats=0)'),
+    (quatro.read_cloud, ('a.bin',), {'floats': 4}, 'read_cloud() has no argument floats; call'),
+    (quatro.read_cloud, (5,), {}, 'path = 5, must be a str, bytes or os.PathLike'),
+    (quatro.read_cloud, (SOURCE,), {}, 'path = array([['),
+    (quatro.read_cloud, ('a.bin', 'four'), {}, "point_floats = 'four', must be an integer"),
+    (quatro.read_cloud, ('a.bin', 1.5), {}, 'point_floats = 1.5, must be an integer'),
+    (quatro.read_cloud, ('a.bin', 10**12), {}, 'point_floats = 1000000000000, must be from '),
+    (quatro.methods, (1,), {}, 'methods() takes at most 0 arguments'),
+    (quatro.presets, (), {'x': 1}, 'presets() has no argument x; call it as presets()'),
+    (quatro.register, (SOURCE, {'points': TARGET}), {}, "target = {'points': array([["),
+    (quatro.register, (SOURCE, TARGET), {'voxel_size': 1j}, 'voxel_size = 1j, must be a number'),
+    (quatro.register, (SOURCE, TARGET), {'voxel_size': TARGET}, 'voxel_size = array([['),
+    (quatro.align, (SOURCE, TARGET, 'icp', {}), {},
+     'initial_target_from_source = {}, must be an array of real numbers, (4, 4) or (3, 4)'),
+])
+def test_wrong_calls_are_refused_in_one_line(function, arguments, options, text):
+    with pytest.raises((TypeError, ValueError)) as error:
+        function(*arguments, **options)
+    message = str(error.value)
+    assert message.startswith(text)
+    assert '\n' not in message and len(message) < 250
+
+
+def test_transform_takes_points_alone():
+    answer = quatro.align(FEW_SOURCE, FEW_TARGET, 'icp', NEARLY)
+    assert np.array_equal(answer.transform(points=SOURCE), answer.transform(SOURCE))
+    for arguments, text in [((), 'transform() needs points; call it as transform(points)'),
+                            ((SOURCE, SOURCE), 'transform() takes at most 1 ')]:
+        with pytest.raises(TypeError) as error:
+            answer.transform(*arguments)
+        assert str(error.value).startswith(text)
+
+
+def test_named_arguments_are_left_alone():
+    given = {'source': FEW_SOURCE, 'target': FEW_TARGET, 'method': 'icp'}
+    quatro.align(**given)
+    assert sorted(given) == ['method', 'source', 'target']
+
+
+def test_ctrl_c_ends_a_call_at_the_end_of_its_stage():
+    class Stop(Exception):
+        pass
+
+    def stop(*_):
+        raise Stop
+
+    before = signal.signal(signal.SIGALRM, stop)
+    try:
+        for call in (lambda: quatro.register(SOURCE, TARGET, 'kitti'),
+                     lambda: quatro.solve(SOURCE, SOURCE, max_tilt=0.1)):
+            signal.setitimer(signal.ITIMER_REAL, 0.01)
+            with pytest.raises(Stop):
+                call()
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert quatro.register(SOURCE, TARGET, 'kitti').is_registered
 
 
 def test_local_alignment_refuses():

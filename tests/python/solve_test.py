@@ -84,7 +84,7 @@ def test_finds_the_pose_among_wrong_matches(method, seed):
     assert 'inliers=%d: ' % answer.num_inliers in repr(answer)
     # Roll and pitch of a method that finds the yaw alone are assumed.
     assert len(answer.unobservable_directions) == (2 if method in ('arc_consensus', 'consensus') else 0)
-    assert all('not estimated, assumed' in text for text in answer.unobservable_directions)
+    assert all('not estimated, but assumed' in text for text in answer.unobservable_directions)
     assert answer.covariance.shape == (6, 6)
     assert np.allclose(answer.covariance, answer.covariance.T)
     assert (np.linalg.eigvalsh(answer.covariance) > 0).all()

@@ -210,8 +210,10 @@ TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {
       program, {"--input=" + PathOf("none")}, "none", "No such file");
   ExpectBadInput(program, {drive, "--method=loam"}, "--method=loam", "suma");
   ExpectBadInput(program, {drive, "--interval=0"}, "--interval=0,", ">= 1");
-  ExpectBadInput(
-      program, {drive, "--first_frame=9"}, "--first_frame=9", "after the last");
+  ExpectBadInput(program,
+                 {drive, "--first_frame=9"},
+                 "--first_frame=9",
+                 "after the last one, ");
   Write("short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
   ExpectBadInput(program,
                  {drive, "--truth=" + PathOf("short.txt")},

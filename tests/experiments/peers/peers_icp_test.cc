@@ -164,7 +164,7 @@ TEST_P(IcpPeerTest, BadInputIsNoAnswer) {
       const AlignmentSummary summary = Align(few, {}, options);
       EXPECT_FALSE(summary.IsUsable()) << n;
       EXPECT_EQ(summary.termination, AlignmentTermination::kInsufficient);
-      EXPECT_NE(summary.message, "nothing was tried");
+      EXPECT_NE(summary.message, "the alignment was not run");
     }
     Pair broken = pair;
     broken.source(1, 5) = nan;

@@ -150,11 +150,30 @@ TEST_F(G2oTest, RefusesWhatItDoesNotKnow) {
   ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0\n",
                 "line 3: ends before number 6 of 6");
   ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 1 0 0 -1 0 1\n",
-                "line 3: information is not positive definite");
+                "line 3: information is not positive semi-definite");
   ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 1e300 0 0 1 0 1\n",
                 "line 3: '1e300' is too large, must be within +-1e18");
   ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 0 0 0 0 0 0\n",
-                "not positive definite");
+                "line 3: information is zero, so the edge measures nothing");
+  ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 0 0.1 0 1 0 1\n",
+                "line 3: information is not positive semi-definite");
+  ExpectRefused(poses + "EDGE_SE2 0 1 0 0 0 1 1.001 0 1 0 1\n",
+                "line 3: information is not positive semi-definite");
+}
+
+// Edges that measure some freedoms only, and a matrix of rank one whose numbers
+// are rounded to six digits.
+TEST_F(G2oTest, ReadsInformationThatIsSemiDefinite) {
+  for (const char* information : {"4 0 0 5 0 0",
+                                  "0 0 0 0 0 6",
+                                  "1 0.333333 0.142857 0.111111 0.047619 "
+                                  "0.0204082"}) {
+    const std::string edge = std::string("EDGE_SE2 0 1 1 2 0.5 ") + information;
+    const auto graph =
+        ReadText("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\n" + edge + "\n");
+    ASSERT_TRUE(graph.has_value()) << error_;
+    EXPECT_THAT(FormatG2o(*graph), HasSubstr(information));
+  }
 }
 
 TEST_F(G2oTest, MissingFileIsNamed) {

@@ -192,6 +192,57 @@ TEST(PoseGraphProblemTest, ResidualsAreWhitened) {
   }
 }
 
+// An edge of rank k has k residuals, with |r|^2 = e^T information e.
+TEST(PoseGraphProblemTest, AnEdgeMayMeasureSomeFreedomsOnly) {
+  for (const int dimension : {2, 3}) {
+    const int n = dimension == 2 ? 3 : 6;
+    for (int rank = 1; rank <= n; ++rank) {
+      PoseGraph graph;
+      graph.dimension = dimension;
+      graph.ids = {0, 1};
+      const Eigen::Vector3d t = dimension == 2
+                                    ? Eigen::Vector3d(0.3, -0.2, 0.0)
+                                    : Eigen::Vector3d(0.3, -0.2, 0.5);
+      graph.world_from_pose = {{}, {RotationZ(0.01), t}};
+      PoseEdge edge;
+      edge.to = 1;
+      Eigen::MatrixXd a = Eigen::MatrixXd::Identity(n, n);
+      a.triangularView<Eigen::StrictlyLower>().setConstant(0.7);
+      a.row(0) *= 1e3;  // Another unit.
+      a = a.leftCols(rank).eval();
+      edge.information = a * a.transpose();
+      graph.edges = {edge};
+      PoseGraphProblem problem(graph, With(LoopLoss::kNone));
+      std::vector<double> residuals;
+      problem.problem().Evaluate({}, nullptr, &residuals, nullptr, nullptr);
+      EXPECT_EQ(residuals.size(), static_cast<std::size_t>(rank));
+      Eigen::VectorXd error = Eigen::VectorXd::Zero(n);
+      error.head(dimension) = t.head(dimension);
+      error[n - 1] = dimension == 2 ? 0.01 : 2.0 * std::sin(0.005);
+      const double expected = error.dot(edge.information * error);
+      EXPECT_NEAR(
+          Eigen::Map<Eigen::VectorXd>(residuals.data(), rank).squaredNorm(),
+          expected,
+          1e-9 * expected);
+    }
+  }
+}
+
+// Loops that measure the position alone, half of them outliers.
+TEST_P(PoseGraphWorld, LoopsWithoutARotationAreSolved) {
+  GraphWorld world = Make(GetParam(), 0.5, 1);
+  const int n = world.graph.dimension;
+  for (PoseEdge& edge : world.graph.edges) {
+    if (edge.IsOdometry()) continue;
+    edge.information.bottomRows(edge.information.rows() - n).setZero();
+    edge.information.rightCols(edge.information.cols() - n).setZero();
+  }
+  ASSERT_TRUE(SolvePoseGraph(With(LoopLoss::kGnc), &world.graph).is_usable);
+  const auto difference = LargestDifference(world.graph.world_from_pose,
+                                            world.true_world_from_pose);
+  EXPECT_LT(difference.translation, 0.5);
+}
+
 // The cost of one edge whose ends are rotated by `yaw`, with an information
 // that couples x and the rotation, so that the sign of the rotation error
 // matters.

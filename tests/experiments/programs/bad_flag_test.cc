@@ -16,6 +16,8 @@ DEFINE_double(test_voxel_size, 0.3, "");
 DEFINE_bool(test_explain, false, "");
 DEFINE_uint64(test_seed, 0, "");
 DEFINE_int32(point_floats, 0, "");
+DEFINE_int32(pairs, 0, "");
+DEFINE_int32(first_frame, 0, "");
 DEFINE_string(method, "", "");
 DEFINE_string(source_rpy_deg, "", "");
 DEFINE_string(options, "", "");
@@ -138,6 +140,19 @@ TEST(SpellAsFlags, OptionsAtTheStartAndKnownOnesAnywhere) {
                                  "--point_floats=2, must be 3"}) {
     EXPECT_EQ(SpellAsFlags(same), same);
   }
+}
+
+TEST(SpellAsFlags, SeveralOptionsAndNumbersOfThings) {
+  EXPECT_EQ(SpellAsFlags("num_pairs = 0, must be in [1, 9]"),
+            "--pairs=0, must be in [1, 9]");
+  EXPECT_EQ(SpellAsFlags("pairs = 4, must be in [1, test_seed = 3]"),
+            "--pairs=4, must be in [1, --test_seed=3]");
+  EXPECT_EQ(SpellAsFlags("no frame is left: first_frame = 7 is after the last"),
+            "no frame is left: --first_frame=7 is after the last");
+  EXPECT_EQ(SpellAsFlags("leave it out with first_frame"),
+            "leave it out with --first_frame");
+  EXPECT_EQ(SpellAsFlags("line 3: 'pairs = 4' is not a number"),
+            "line 3: 'pairs = 4' is not a number");
 }
 
 using FlagFilesTest = ProgramTest;

@@ -394,6 +394,56 @@ TEST_F(SimulateProgramTest, RefusesFlagsThatItWouldNotUse) {
                  "sequence, drive, pairs, calibration");
 }
 
+TEST_F(SimulateProgramTest, RangesAreToldByTheFlag) {
+  const auto expect = [&](const std::string& protocol,
+                          const std::string& flag,
+                          const std::string& range) {
+    ExpectBadInput("quatro_simulate",
+                   {"--output=" + PathOf("a"), "--protocol=" + protocol, flag},
+                   "quatro_simulate: " + flag + ", must be ",
+                   range);
+  };
+  expect("sequence", "--slope_deg=21", "in [-20, 20]");
+  expect("sequence", "--slope_deg=nan", "in [-20, 20]");
+  expect("sequence", "--tilt_sigma_deg=-1", "in [0, 11]");
+  expect("drive", "--drive=99", "one of 00");
+  expect("drive", "--moving_cars=-1", "in [0, 1000]");
+  expect("drive", "--ins_noise_deg=-1", "in [0, 11]");
+  expect("drive", "--ins_bias_deg=12", "in [0, 11]");
+  expect("pairs", "--pairs=0", "in [1, 1000000]");
+  expect("pairs", "--min_distance=40", "in [0, --max_distance=30]");
+  expect("pairs", "--max_yaw_deg=181", "in [0, 180]");
+  expect("pairs", "--min_tilt_deg=16", "in [0, 15], at most --max_tilt_deg");
+  expect("pairs", "--max_tilt_deg=18", "in [0, 17]");
+  expect("pairs", "--features=1001", "<= 1000");
+  expect("pairs", "--ins_std_deg=-1", "in [0, 11]");
+  ExpectBadInput("quatro_simulate",
+                 {"--output=" + PathOf("a"), "--frame_spacing=100"},
+                 "--num_frames=100 with --frame_spacing=100 is a drive of",
+                 "must be <= 5000 m");
+}
+
+// The largest angles of the flags are within the ranges of the options.
+TEST_F(SimulateProgramTest, LargestAnglesAreTaken) {
+  const ProgramRun run = RunProgram("quatro_simulate",
+                                    {"--output=" + PathOf("a"),
+                                     "--slope_deg=20",
+                                     "--tilt_sigma_deg=11",
+                                     "--num_frames=1"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun pairs = RunProgram("quatro_simulate",
+                                      {"--output=" + PathOf("b"),
+                                       "--protocol=pairs",
+                                       "--world=hill",
+                                       "--sensor=vlp16",
+                                       "--pairs=1",
+                                       "--min_tilt_deg=17",
+                                       "--max_tilt_deg=17",
+                                       "--max_yaw_deg=180",
+                                       "--ins_std_deg=11"});
+  EXPECT_EQ(pairs.exit_code, 0) << pairs.err;
+}
+
 TEST_F(SimulateProgramTest, ANameThatIsTooLongLeavesNoFolder) {
   const std::string output =
       "--output=" + PathOf("new/" + std::string(300, 'x'));

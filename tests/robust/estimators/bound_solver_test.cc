@@ -93,7 +93,7 @@ TEST(BoundSolver, APoseOutsideIsNoAnswer) {
   EXPECT_EQ(summary.termination, PoseTermination::kInsufficient);
   EXPECT_FALSE(summary.IsUsable());
   EXPECT_THAT(summary.message,
-              HasSubstr("the best pose lies outside of the bounds given"));
+              HasSubstr("the best pose is outside of the bounds: it is"));
   EXPECT_THAT(summary.message, HasSubstr("at most 3 m"));
 }
 
@@ -134,7 +134,7 @@ TEST(BoundSolver, TheConsensusInsideIsFoundBesideALargerOneOutside) {
     EXPECT_THAT(summary.translation_inliers,
                 ::testing::IsSupersetOf(problem.of_few));
     EXPECT_THAT(summary.Note("bounds"),
-                HasSubstr("matches, lies outside of the bounds"));
+                HasSubstr("a pose outside of the bounds has more inliers"));
     EXPECT_EQ(summary.num_matches, static_cast<Eigen::Index>(possible.size()));
   }
 }
@@ -172,8 +172,7 @@ TEST(BoundSolver, BoundsWithoutAnyMatchSaySo) {
       Quatro(), Around({RotationZ(0.0), {500.0, 0.0, 0.0}}), kNoiseBound)(
       problem.source, problem.target);
   EXPECT_EQ(summary.termination, PoseTermination::kInsufficient);
-  EXPECT_THAT(summary.message,
-              HasSubstr("within the bounds given, 0 of 150 matches"));
+  EXPECT_THAT(summary.message, HasSubstr("the bounds leave 0 of 150 matches"));
 }
 
 TEST(BoundSolver, BadBoundsAreInvalidInput) {

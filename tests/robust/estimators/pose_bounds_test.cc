@@ -134,21 +134,6 @@ TEST(PoseBounds, PosesBeyondAreNotContained) {
   EXPECT_FALSE(contains(0.0, 0.12, 0.0));
 }
 
-TEST(PoseBounds, AnotherFrameChangesNothing) {
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const PoseBounds bounds = RandomBounds(seed);
-    const Rigid3 frame{RandomRotation(seed + 7), RandomPoints(1, 9.0, seed)};
-    const PoseBounds moved = bounds.InFrame(frame);
-    const Rigid3 pose{RandomRotation(seed + 8),
-                      RandomPoints(1, 20.0, seed + 8)};
-    EXPECT_EQ(bounds.Contain(pose, 1.0), moved.Contain(frame * pose, 1.0));
-    const Eigen::Vector3d p = RandomPoints(1, 10.0, seed + 3);
-    const Eigen::Vector3d q = RandomPoints(1, 10.0, seed + 4);
-    EXPECT_NEAR(
-        bounds.DistanceToArc(p, q), moved.DistanceToArc(p, frame * q), 1e-9);
-  }
-}
-
 TEST(PoseBounds, WithoutBoundsAllIsContained) {
   PoseBounds bounds;
   bounds.guess.translation.x() = 7.0;
@@ -177,9 +162,9 @@ TEST(PoseBounds, WhatIsOutOfRangeIsToldByName) {
   EXPECT_THAT(problem([](PoseBounds* b) { b->up.z() = 2.0; }),
               HasSubstr("bounds.up"));
   EXPECT_THAT(problem([](PoseBounds* b) { b->guess.rotation *= 2.0; }),
-              HasSubstr("rotation"));
+              HasSubstr("bounds.guess has no rotation in its first three"));
   EXPECT_THAT(problem([](PoseBounds* b) { b->guess.translation.x() = kNan; }),
-              HasSubstr("finite"));
+              HasSubstr("bounds.guess has a number that is not finite"));
   std::string error;
   EXPECT_TRUE(PoseBounds().IsValid(&error)) << error;
 }

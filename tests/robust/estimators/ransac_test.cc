@@ -525,7 +525,8 @@ TEST(Ransac, BadInputIsRefused) {
   const RansacSummary with_few =
       SolveRansac(problem.source, problem.target, options, &few);
   ExpectNoAnswer(with_few, PoseTermination::kInvalidInput);
-  EXPECT_THAT(with_few.message, HasSubstr("not as many normals as matches"));
+  EXPECT_THAT(with_few.message,
+              HasSubstr("matches; equal numbers are required"));
   problem.normals.source(0, 0) = kNaN;
   EXPECT_THAT(Solve(problem, options).message, HasSubstr("normal is not"));
   EXPECT_TRUE(Solve(problem).IsUsable());  // The normals are ignored.

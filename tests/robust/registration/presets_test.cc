@@ -233,6 +233,13 @@ TEST_F(AutoOptionsTest, WithoutPointsAreKitti) {
   EXPECT_EQ(AutoVoxelSize(dense_, none), kitti);
 }
 
+// The squares of such distances are zero: every point would be a neighbor of
+// every other, and the search would be quadratic.
+TEST_F(AutoOptionsTest, DistancesThatCannotBeSquaredAreNotUsed) {
+  const Points tiny = 1e-300 * dense_;
+  EXPECT_EQ(AutoVoxelSize(tiny, dense_), AutoVoxelSize(Points(3, 0), dense_));
+}
+
 TEST_F(AutoOptionsTest, OnePointOrCopiesOfItGiveValidOptions) {
   for (const Eigen::Index n : {1, 2, 100}) {
     const PointCloud cloud = CloudOf(Points::Ones(3, n));

@@ -95,7 +95,7 @@ TEST_F(RefinementTest, BringsANearlyRightPoseHome) {
 }
 
 TEST_F(RefinementTest, NoneIsNoAnswer) {
-  ExpectKept(Refine(truth_), truth_, "nothing was tried");
+  ExpectKept(Refine(truth_), truth_, "the alignment was not run");
 }
 
 // A right pose, and clouds of which one was carried off: what is found there is

@@ -115,10 +115,8 @@ TEST(CeresTwins, YawAgreesWithItsClosedForm) {
     WeightedPairs pairs = RandomPairs(RotationZ(yaw), seed);
     const auto closed_form =
         EstimateYaw(pairs.source, pairs.target, pairs.weights);
-    const auto derivative =
-        seed % 2 == 0 ? YawDerivative::kAutomatic : YawDerivative::kAnalytic;
-    const auto twin = SolveYawByCeres(
-        pairs.source, pairs.target, pairs.weights, 0.0, derivative);
+    const auto twin =
+        SolveYawByCeres(pairs.source, pairs.target, pairs.weights);
     ASSERT_EQ(closed_form.has_value(), twin.is_usable) << twin.message;
     if (!twin.is_usable ||
         twin.estimate.curvature < kMinConditioning * pairs.Scale()) {
@@ -312,7 +310,7 @@ TEST_F(CeresTwinTest, IsNotUsableWithoutWeightOrWithNaN) {
       SolvePoseByCeres(Points(3, 0), Points(3, 0), Weights(0)).is_usable);
   const auto twin = SolveRotationByCeres(source_, source_, not_numbers);
   EXPECT_FALSE(twin.is_usable);
-  EXPECT_EQ(twin.message, "Not finite.");
+  EXPECT_EQ(twin.message, "a point or a weight is not finite");
 }
 
 TEST_F(CeresTwinTest, UndeterminedIsUsableWithASingularCurvature) {
@@ -372,44 +370,6 @@ TEST(SecondDerivative, OfAPolynomialByHand) {
   Eigen::Matrix2d expected;
   expected << 36.0, 12.0, 12.0, 10.0;
   EXPECT_EQ(at.hessian, expected);
-}
-
-TEST(AnalyticYawResidual, AgreesWithAutomaticDerivatives) {
-  using RowMajor32 = Eigen::Matrix<double, 3, 2, Eigen::RowMajor>;
-  using RowMajor33 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const Points numbers = RandomPoints(3, 10.0, seed);
-    const PairResidual<TurnAboutZ> pair{
-        numbers.col(0), numbers.col(1), Random(seed).Uniform() + 0.1};
-    const AnalyticYawResidual by_hand(pair);
-    const PairResidual<TurnAboutZ>::CostFunction automatic(
-        new PairResidual<TurnAboutZ>(pair));
-
-    const double yaw = Yaw(RandomRotation(seed));
-    const double turn[2] = {std::cos(yaw), std::sin(yaw)};
-    const double* parameters[2] = {turn, numbers.col(2).data()};
-    Eigen::Vector3d residual[2];
-    RowMajor32 wrt_turn[2];
-    RowMajor33 wrt_shift[2];
-    const ceres::CostFunction* functions[2] = {&by_hand, &automatic};
-    for (int k = 0; k < 2; ++k) {
-      double* jacobians[2] = {wrt_turn[k].data(), wrt_shift[k].data()};
-      ASSERT_TRUE(
-          functions[k]->Evaluate(parameters, residual[k].data(), jacobians));
-    }
-    EXPECT_GT(residual[0].norm(), 0.0);
-    EXPECT_GT(wrt_turn[0].norm(), 0.0);
-    EXPECT_GT(wrt_shift[0].norm(), 0.0);
-    EXPECT_EQ(residual[0], residual[1]);
-    EXPECT_LT((wrt_turn[0] - wrt_turn[1]).norm(), 1e-12);
-    EXPECT_LT((wrt_shift[0] - wrt_shift[1]).norm(), 1e-12);
-
-    // Each Jacobian alone, as Ceres requests it if a block is constant.
-    RowMajor32 alone;
-    double* only_turn[2] = {alone.data(), nullptr};
-    ASSERT_TRUE(by_hand.Evaluate(parameters, residual[0].data(), only_turn));
-    EXPECT_EQ(alone, wrt_turn[0]);
-  }
 }
 
 }  // namespace

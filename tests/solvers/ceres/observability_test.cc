@@ -135,7 +135,8 @@ TEST(UnobservableDirection, SaysWhichAndWhy) {
             "rotation about the axis (0.94, 0.34, 0.00) through (12.3, -5.0, "
             "0.0): standard deviation 1 deg");
   direction.reason = UnobservableReason::kAssumed;
-  EXPECT_THAT(direction.Describe(), HasSubstr("not estimated, assumed with"));
+  EXPECT_THAT(direction.Describe(),
+              HasSubstr("not estimated, but assumed with"));
   direction.standard_deviation.reset();
   direction.reason = UnobservableReason::kNoData;
   EXPECT_THAT(direction.Describe(), HasSubstr("unbounded"));
