@@ -54,12 +54,12 @@ drives=(00 02 05 06 07 08)
 if [[ $quick ]]; then
   # Scans are 4 m apart, except for odometry.
   spacing=4 gap=25 per_source=0 pairs_one=8 pairs_three=6 pairs_yaw=3 pairs_timing=4 frames=106
-  frames_inside=300 problems=10 lc_gap=62 pairs_lc=3
+  frames_inside=300 problems=10 lc_gap=62 pairs_lc=3 pairs_ablation=1
   intervals=(1 5)
   odometries=quatro,quatro_c2f,gicp,suma,aloam
 else
   spacing=1 gap=100 per_source=3 pairs_one=200 pairs_three=200 pairs_yaw=50 pairs_timing=50 frames=600
-  frames_inside=0 problems=100 lc_gap=250 pairs_lc=100
+  frames_inside=0 problems=100 lc_gap=250 pairs_lc=100 pairs_ablation=50
   intervals=(1 3 5)
   odometries=icp,gicp,vgicp,fgr,teaser,quatro,suma,aloam,quatro_c2f
 fi
@@ -127,6 +127,18 @@ run loops --protocol=loop --data="$drive_data" --preset="$preset" \
     --bins=0-10,10-20,20-30 --max_pairs="$pairs_lc" --limits=2/5,2/10,0.6/5 \
     --methods=quatro,quatro_single,teaser,ransac10k,arc_consensus
 draw loops distance
+# The ablation: each part of the search off in turn.
+for part in none consensus segments cliques geometric_choice guided_matching rung_2 rung_3; do
+  case $part in
+    none) options=() ;;
+    rung_2) options=(--options=max_rung=1) ;;
+    rung_3) options=(--options=max_rung=2) ;;
+    *) options=(--options="$part=off") ;;
+  esac
+  run "ablation/$part" --protocol=loop --data="$drive_data" --preset="$preset" \
+      --sequences=00,02,05,06,07,08 --min_frame_gap="$lc_gap" --min_pair_spacing=2 \
+      --bins=20-30 --max_pairs="$pairs_ablation" --methods=quatro "${options[@]}"
+done
 run table_two --protocol=odometry --data="$odometry_data" --sequences=00 --preset="$preset" \
     --intervals="$(IFS=,; echo "${intervals[*]}")" --max_frames="$frames" --methods="$odometries"
 run yaw --protocol=yaw --data="$building_data" --preset=indoor --intervals=5 --yaw_step_deg=30 \

@@ -20,18 +20,33 @@ constexpr double kFixedPoint = 0x1p32;
 
 using Fixed3 = Eigen::Matrix<std::int64_t, 3, 1>;
 
-}  // namespace
+// The cells of a cloud, by keys in the order of (x, y, z).
+struct Grid {
+  double voxel_size = 1.0;
+  Eigen::Vector3d first_cell = Eigen::Vector3d::Zero();
+  int bits[3] = {};  // Of an index along each axis.
 
-std::optional<Points> SampleVoxels(const PointsRef& points,
-                                   double voxel_size,
-                                   std::string* error) {
+  std::uint64_t KeyOf(const Eigen::Vector3d& point) const {
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell =
+          std::floor(point[axis] / voxel_size) - first_cell[axis];
+      key = key << bits[axis] | static_cast<std::uint64_t>(cell);
+    }
+    return key;
+  }
+};
+
+std::optional<Grid> MakeGrid(const PointsRef& points,
+                             double voxel_size,
+                             std::string* error) {
   std::ostringstream problem;
   if (!(voxel_size > 0.0 && std::isfinite(voxel_size))) {
     problem << "voxel_size = " << voxel_size << ", must be > 0 and finite";
     *error = problem.str();
     return std::nullopt;
   }
-  if (points.cols() == 0) return Points(3, 0);
+  if (points.cols() == 0) return Grid();
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     if (points.col(i).allFinite()) continue;
     problem << "point " << i << " is not finite";
@@ -65,22 +80,28 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
     return std::nullopt;
   }
 
-  int bits[3];
+  Grid grid{voxel_size, first_cell, {}};
   for (int axis = 0; axis < 3; ++axis) {
-    bits[axis] = static_cast<int>(std::bit_width(
+    grid.bits[axis] = static_cast<int>(std::bit_width(
         static_cast<std::uint64_t>(last_cell[axis] - first_cell[axis])));
   }
+  return grid;
+}
+
+}  // namespace
+
+std::optional<Points> SampleVoxels(const PointsRef& points,
+                                   double voxel_size,
+                                   std::string* error) {
+  const std::optional<Grid> grid = MakeGrid(points, voxel_size, error);
+  if (!grid) return std::nullopt;
+  if (points.cols() == 0) return Points(3, 0);
   ZeroedVector<KeyedIndex> keyed(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double cell =
-          std::floor(points(axis, i) / voxel_size) - first_cell[axis];
-      key = key << bits[axis] | static_cast<std::uint64_t>(cell);
-    }
-    keyed[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
+    keyed[static_cast<std::size_t>(i)] = {grid->KeyOf(points.col(i)),
+                                          static_cast<std::int32_t>(i)};
   }
-  RadixSort(bits[0] + bits[1] + bits[2], &keyed);
+  RadixSort(grid->bits[0] + grid->bits[1] + grid->bits[2], &keyed);
 
   Eigen::Index num_cells = 1;
   for (std::size_t k = 1; k < keyed.size(); ++k) {
@@ -105,6 +126,29 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
     begin = end;
   }
   return samples;
+}
+
+std::optional<Eigen::Index> CountVoxels(const PointsRef& points,
+                                        double voxel_size,
+                                        std::string* error) {
+  const std::optional<Grid> grid = MakeGrid(points, voxel_size, error);
+  if (!grid) return std::nullopt;
+  // A hash table, half empty, of keys plus one; zero is free.
+  const auto num_points = static_cast<std::uint64_t>(points.cols());
+  ZeroedVector<std::uint64_t> table(std::bit_ceil(2 * num_points + 1));
+  const int shift = 64 - std::countr_zero(table.size());
+  Eigen::Index num_cells = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const std::uint64_t entry = grid->KeyOf(points.col(i)) + 1;
+    // Fibonacci hashing: the high bits of the product are well mixed.
+    std::uint64_t at = entry * 0x9e3779b97f4a7c15u >> shift;
+    while (table[at] != 0 && table[at] != entry) {
+      at = (at + 1) & (table.size() - 1);
+    }
+    num_cells += table[at] == 0;
+    table[at] = entry;
+  }
+  return num_cells;
 }
 
 }  // namespace quatro

@@ -90,9 +90,9 @@ double FindSize(const Points& points, double low, double high) {
   int few_enough = kNumSizes;
   int next = kNumSizes / 2;
   while (few_enough - too_many > 1) {
-    const auto voxels =
-        SampleVoxels(points, std::exp(low + next * step), &error);
-    const Eigen::Index num = voxels ? voxels->cols() : points.cols();
+    const Eigen::Index num =
+        CountVoxels(points, std::exp(low + next * step), &error)
+            .value_or(points.cols());
     (num > kWantedVoxels ? too_many : few_enough) = next;
     const double distance =
         std::log(static_cast<double>(num) / kWantedVoxels) / (kFall * step);

@@ -72,6 +72,19 @@ class ReportPaperTest(unittest.TestCase):
         self.assertIn("teaser is correct on 1 of the pairs that Quatro misses, and misses 1 that", page)
         self.assertNotIn("fgr is correct", page)
 
+    def test_the_ablation_counts_pairs(self):
+        self.write("table_one/tables/table_one.csv", TABLE_ONE.format(quatro="99.50"))
+        self.assertNotIn("one part of the search off", self.run_script().stdout)
+        header = "pair,method,status,translation_error_m,rotation_error_deg,total_ms\n"
+        self.write("ablation/none/results.csv",
+                   header + "a,quatro,registered,0.1,1,20\nb,quatro,registered,1.9,4.9,30\n")
+        self.write("ablation/segments/results.csv",
+                   header + "a,quatro,registered,0.1,5.1,20\nb,quatro,ambiguous,,,40\n")
+        page = self.run_script().stdout
+        self.assertIn("| nothing | 2 | 2 | 2 | 0 | 25 |", page)
+        self.assertIn("| segments | 2 | 0 | 1 | 1 | 30 |", page)
+        self.assertNotIn("| cliques |", page)
+
     def test_drift_at_five_may_be_better(self):
         for five, expected in (("0.10", "holds"), ("0.75", "holds"), ("0.76", "does not hold")):
             self.write("table_two/table_two.csv", TABLE_TWO.format(five=five))
