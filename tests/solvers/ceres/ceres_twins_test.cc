@@ -23,7 +23,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::ceres_twins_test {
 namespace {
 
 constexpr int kNumProblems = 1000;
@@ -413,4 +413,4 @@ TEST(AnalyticYawResidual, AgreesWithAutomaticDerivatives) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ceres_twins_test
