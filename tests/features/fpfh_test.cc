@@ -15,7 +15,7 @@
 #include "features/normals.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::fpfh_test {
 namespace {
 
 constexpr int kBins = kFpfhBinsPerPart;
@@ -337,4 +337,4 @@ TEST(ComputeFpfh, DoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::fpfh_test

@@ -13,9 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/print_match.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::guided_matching_test {
 namespace {
 
 using ::testing::IsEmpty;
@@ -129,4 +130,4 @@ TEST(MatchGuided, FarApartOrEmptyHasNoMatches) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::guided_matching_test

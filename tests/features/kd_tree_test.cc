@@ -18,7 +18,7 @@
 #include "features/cell_neighborhoods.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::kd_tree_test {
 namespace {
 
 using ::testing::Contains;
@@ -379,4 +379,4 @@ TEST(FindNearestNeighborhoods, FewerPointsThanAskedForAreAllFound) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::kd_tree_test

@@ -11,21 +11,16 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <ostream>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "features/base/simd.h"
+#include "tests/support/print_match.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
-
-void PrintTo(const Match& match, std::ostream* os) {
-  *os << match.source << "-" << match.target;
-}
-
+namespace quatro::matching_test {
 namespace {
 
 using ::testing::AllOf;
@@ -548,4 +543,4 @@ TEST(TupleTestOptions, NumberOfTriplesMustBePositive) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::matching_test

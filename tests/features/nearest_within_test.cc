@@ -11,7 +11,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::nearest_within_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -104,4 +104,4 @@ TEST(FindNearestWithin, DoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::nearest_within_test

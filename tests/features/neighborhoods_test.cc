@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-namespace quatro {
+namespace quatro::neighborhoods_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -85,4 +85,4 @@ TEST(Neighborhoods, RowsOfManyBlocksAndThreadsStayWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::neighborhoods_test

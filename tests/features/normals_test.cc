@@ -13,7 +13,7 @@
 #include "features/base/degree.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::normals_test {
 namespace {
 
 constexpr double kRadius = 0.8;  // [m]
@@ -240,4 +240,4 @@ TEST(EstimateNormals, DoNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::normals_test

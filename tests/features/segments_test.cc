@@ -7,13 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "features/base/rigid3.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::segments_test {
 namespace {
 
 using ::testing::IsEmpty;
@@ -196,4 +197,4 @@ TEST(FindSegments, GroundAndUnknownNormalsAreNone) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::segments_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::surface_share_test {
 namespace {
 
 // A wall scanned by few beams: rows `gap` apart of points 0.02 m apart.
@@ -72,4 +72,4 @@ TEST(SurfaceShare, OfNothingIsZero) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::surface_share_test

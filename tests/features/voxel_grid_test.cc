@@ -16,7 +16,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::voxel_grid_test {
 namespace {
 
 using ::testing::AllOf;
@@ -232,4 +232,4 @@ TEST(SampleVoxels, HoldsExactlyTwoToThe21CellsPerAxis) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::voxel_grid_test

@@ -1,7 +1,7 @@
 # Builds and runs a program that uses the library as others would.
 #   cmake -DKIND=find_package|add_subdirectory|fetch_content -DSOURCE=repository
 #         -DBUILD=its-build-folder -DFOLDER=scratch [-DSHARED=ON]
-#         -DVERSION=its-version -DGENERATOR=... -DCXX=compiler [-DLAUNCHER=ccache]
+#         [-DUNITY=ON] -DVERSION=its-version -DGENERATOR=... -DCXX=compiler [-DLAUNCHER=ccache]
 #         -P consumer_test.cmake
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output
@@ -63,6 +63,7 @@ endif()
 
 set(configure ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/${KIND}"
     -B "${FOLDER}/build" ${options} -DCMAKE_BUILD_TYPE=Debug "-DBUILD_SHARED_LIBS=${SHARED}"
+    "-DQUATRO_UNITY=${UNITY}"
     "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}"
     "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
 run(configure ${configure})

@@ -14,7 +14,7 @@
 #include "robust/graph/max_clique.h"
 #include "tests/properties/lattice.h"
 
-namespace quatro {
+namespace quatro::cliques_test {
 namespace {
 
 Graph AnyGraph(int num_vertices) {
@@ -90,4 +90,4 @@ RC_GTEST_PROP(ConsistencyProperty, MotionsOfTheTargetKeepEveryEdge, ()) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::cliques_test

@@ -13,7 +13,7 @@
 #include "robust/estimators/quatro.h"
 #include "tests/properties/lattice.h"
 
-namespace quatro {
+namespace quatro::methods_test {
 namespace {
 
 bool AreColumns(const std::vector<Eigen::Index>& columns, Eigen::Index n) {
@@ -77,4 +77,4 @@ RC_GTEST_PROP(MethodsProperty, OrderDoesNotMatterAmongTies, ()) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::methods_test

@@ -16,7 +16,7 @@
 #include "tests/properties/lattice.h"
 #include "tests/support/horn_rotation.h"
 
-namespace quatro {
+namespace quatro::solvers_test {
 namespace {
 
 constexpr double kTolerance = 1e-9;
@@ -124,4 +124,4 @@ RC_GTEST_PROP(ExactYawProperty, NoYawIsBetterAndATurnChangesNoCost, ()) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::solvers_test

@@ -11,7 +11,7 @@
 
 #include "features/base/random.h"
 
-namespace quatro {
+namespace quatro::csv_line_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -52,4 +52,4 @@ TEST(CsvLine, AnyCellsComeBack) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::csv_line_test

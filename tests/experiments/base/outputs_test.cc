@@ -17,7 +17,7 @@
 #include "experiments/base/one_line.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::outputs_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -238,4 +238,4 @@ TEST(OneLine, LongTextIsShortened) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::outputs_test

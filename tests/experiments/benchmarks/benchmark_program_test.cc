@@ -16,7 +16,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::benchmark_program_test {
 namespace {
 
 using nlohmann::json;
@@ -144,4 +144,4 @@ TEST_F(BenchmarkProgramTest, TellsItsFlags) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::benchmark_program_test

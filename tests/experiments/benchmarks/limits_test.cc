@@ -16,7 +16,7 @@
 #include "experiments/simulator/synthetic.h"
 #include "features/base/simd.h"
 
-namespace quatro {
+namespace quatro::limits_test {
 namespace {
 
 constexpr double kBound = 0.6;
@@ -94,4 +94,4 @@ TEST(PeakMemory, IsThatOfTheWorkAlone) {
 #endif
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::limits_test

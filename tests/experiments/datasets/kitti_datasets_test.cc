@@ -24,7 +24,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::kitti_datasets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -613,4 +613,4 @@ TEST_F(KittiOdometryTest, RealSequencesHaveAPlausibleDrift) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::kitti_datasets_test

@@ -18,7 +18,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::naver_dataset_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -251,4 +251,4 @@ TEST_F(NaverTest, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::naver_dataset_test

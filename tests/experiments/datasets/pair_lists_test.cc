@@ -21,7 +21,7 @@
 #include "features/base/degree.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::pair_lists_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -341,4 +341,4 @@ TEST_F(PairListTest, RealPairsCsvIsRead) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pair_lists_test

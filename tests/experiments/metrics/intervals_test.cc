@@ -15,7 +15,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::intervals_test {
 namespace {
 
 std::vector<double> NormalValues(int n, std::uint64_t seed) {
@@ -197,4 +197,4 @@ TEST(BootstrapOptions, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::intervals_test

@@ -18,7 +18,7 @@
 #include "features/base/degree.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::kitti_metrics_test {
 namespace {
 
 // One meter per frame along x.
@@ -179,4 +179,4 @@ TEST(KittiDrift, OfTheOfficialPosesOfKitti00IsSmall) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::kitti_metrics_test

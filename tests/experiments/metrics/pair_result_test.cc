@@ -18,7 +18,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::pair_result_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -357,4 +357,4 @@ TEST_F(ResultFileTest, ThatIsMissingIsNamed) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pair_result_test

@@ -14,7 +14,7 @@
 #include "tests/support/pair_results.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::paired_test_test {
 namespace {
 
 // 2 sum C(n, k) / 2^n in integers, by Pascal's triangle.
@@ -172,4 +172,4 @@ TEST(ComparePaired, OfNoCommonPairsTellsNothing) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::paired_test_test

@@ -13,7 +13,7 @@
 #include "features/base/degree.h"
 #include "tests/support/pair_results.h"
 
-namespace quatro {
+namespace quatro::registration_metrics_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -154,4 +154,4 @@ TEST(Recall, IsByHand) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::registration_metrics_test

@@ -16,7 +16,7 @@
 #include "experiments/odometry/suma/surfel_map.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::odometry_maps_test {
 namespace {
 
 TEST(VoxelMapTest, HoldsTheMeanOfEachVoxelAndForgetsFarOnes) {
@@ -237,4 +237,4 @@ TEST(SurfelMapTest, WhatIsFarBehindIsForgotten) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::odometry_maps_test

@@ -13,7 +13,7 @@
 #include "experiments/datasets/kitti_poses.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::odometry_program_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -260,4 +260,4 @@ TEST_F(OdometryProgramTest, BadFlagsAndFilesAreNamed) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::odometry_program_test

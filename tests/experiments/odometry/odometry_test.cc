@@ -28,7 +28,7 @@
 #include "robust/registration/presets.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::odometry_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -479,4 +479,4 @@ TEST(OdometryOptions, ErrorsNameTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::odometry_test

@@ -16,7 +16,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::outside_results_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -214,4 +214,4 @@ TEST(ParseOutsideTest, TakesNamesAndPaths) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::outside_results_test

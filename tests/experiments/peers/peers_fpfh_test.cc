@@ -28,7 +28,7 @@
 #include "experiments/peers/pcl_fpfh.h"
 #endif
 
-namespace quatro {
+namespace quatro::peers_fpfh_test {
 namespace {
 
 constexpr double kRadius = 1.5;
@@ -195,7 +195,7 @@ TEST_F(FpfhPeer, QuatroOnItsMatchesIsInTheRegistry) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::peers_fpfh_test
 
 #else
 

@@ -30,7 +30,7 @@
 #include "features/base/degree.h"
 #endif
 
-namespace quatro {
+namespace quatro::peers_icp_test {
 namespace {
 
 struct Peer {
@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                          });
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::peers_icp_test
 
 #else
 

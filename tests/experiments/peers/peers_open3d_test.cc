@@ -19,7 +19,7 @@
 #include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::peers_open3d_test {
 namespace {
 
 constexpr double kBound = 0.3;
@@ -114,7 +114,7 @@ TEST(Open3dPeer, IsInTheRegistry) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::peers_open3d_test
 
 #else
 

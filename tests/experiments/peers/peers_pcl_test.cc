@@ -17,7 +17,7 @@
 #include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::peers_pcl_test {
 namespace {
 
 constexpr double kBound = 0.3;
@@ -119,7 +119,7 @@ TEST(PclPeer, RansacIsInTheRegistry) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::peers_pcl_test
 
 #else
 

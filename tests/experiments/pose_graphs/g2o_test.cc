@@ -13,7 +13,7 @@
 #include "experiments/pose_graphs/pose_graph_worlds.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::g2o_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -191,4 +191,4 @@ TEST_F(G2oTest, CutAnywhereDoesNotCrash) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::g2o_test

@@ -11,7 +11,7 @@
 #include "experiments/pose_graphs/pose_graph_worlds.h"
 #include "robust/gnc/weighted_problem.h"
 
-namespace quatro {
+namespace quatro::pose_graph_large_test {
 namespace {
 
 GraphWorld MakeLarge(int num_poses) {
@@ -62,4 +62,4 @@ TEST(LargePoseGraph, MemoryGrowsWithTheResidualBlocks) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pose_graph_large_test

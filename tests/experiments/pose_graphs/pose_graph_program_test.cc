@@ -16,7 +16,7 @@
 #include "experiments/pose_graphs/pose_graph_protocol.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::pose_graph_program_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -231,4 +231,4 @@ TEST_F(FitLineProgramTest, BadFlagsAreRefused) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pose_graph_program_test

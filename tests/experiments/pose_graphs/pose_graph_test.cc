@@ -11,7 +11,7 @@
 #include "experiments/pose_graphs/pose_graph_protocol.h"
 #include "experiments/pose_graphs/pose_graph_worlds.h"
 
-namespace quatro {
+namespace quatro::pose_graph_test {
 namespace {
 
 using ::testing::AllOf;
@@ -335,4 +335,4 @@ TEST(FirstOfParts, GoesByWeightsAndFixedPoses) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pose_graph_test

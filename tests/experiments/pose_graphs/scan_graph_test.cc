@@ -27,7 +27,7 @@
 #include "robust/registration/presets.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::scan_graph_test {
 namespace {
 
 // The first six and the last are one place, 88 and 95 are another one 60 m
@@ -285,4 +285,4 @@ TEST_F(ScanGraphTest, BadFlagsAreRefused) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::scan_graph_test

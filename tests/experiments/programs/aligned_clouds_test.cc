@@ -12,7 +12,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::aligned_clouds_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -74,4 +74,4 @@ TEST_F(AlignedCloudsTest, WhatCannotBeWrittenIsToldBeforehand) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::aligned_clouds_test

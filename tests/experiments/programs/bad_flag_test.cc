@@ -23,7 +23,7 @@ DEFINE_string(source_rpy_deg, "", "");
 DEFINE_string(options, "", "");
 DEFINE_string(input, "", "");
 
-namespace quatro {
+namespace quatro::bad_flag_test {
 namespace {
 
 TEST(BadFlag, TheNearestIsNamed) {
@@ -201,4 +201,4 @@ TEST_F(FlagFilesTest, WhatCannotBeReadIsTold) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::bad_flag_test

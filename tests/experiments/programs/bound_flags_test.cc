@@ -14,7 +14,7 @@
 #include "features/base/degree.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::bound_flags_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -113,4 +113,4 @@ TEST_F(BoundFlagsTest, AnAnswerIsNotNestedDeeply) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::bound_flags_test

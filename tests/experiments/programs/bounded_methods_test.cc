@@ -9,7 +9,7 @@
 #include "experiments/programs/methods.h"
 #include "tests/support/two_poses.h"
 
-namespace quatro {
+namespace quatro::bounded_methods_test {
 namespace {
 
 class BoundedMethods : public ::testing::TestWithParam<std::string> {
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& method) { return method.param; });
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::bounded_methods_test

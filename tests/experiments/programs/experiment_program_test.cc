@@ -24,7 +24,7 @@
 #include "tests/support/room_scans.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::experiment_program_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -337,4 +337,4 @@ TEST_F(ExperimentProgramTest, BadFlagsAreOneLine) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::experiment_program_test

@@ -14,7 +14,7 @@
 #include "robust/estimators/quatro.h"
 #include "tests/support/matched_problems.h"
 
-namespace quatro {
+namespace quatro::explain_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -192,4 +192,4 @@ TEST(Explain, KeepsToTheWidthOfATerminal) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::explain_test

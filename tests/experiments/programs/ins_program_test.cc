@@ -20,7 +20,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::ins_program_test {
 namespace {
 
 using nlohmann::json;
@@ -225,4 +225,4 @@ TEST_F(InsProgramTest, RegistersTiltedScansInAnyAxes) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ins_program_test

@@ -16,7 +16,7 @@
 #include "robust/registration/registration.h"
 #include "robust/verdict/verdict.h"
 
-namespace quatro {
+namespace quatro::json_report_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -230,4 +230,4 @@ TEST(JsonReportTest, VersionIsThreeNumbers) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::json_report_test

@@ -15,7 +15,7 @@
 #include "features/base/types.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::matches_csv_test {
 namespace {
 
 constexpr char kNames[] = "sx,sy,sz,tx,ty,tz\n";
@@ -178,4 +178,4 @@ TEST_F(MatchesCsvTest, NoMatchesComeBackToo) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::matches_csv_test

@@ -15,7 +15,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::method_invariance_test {
 namespace {
 
 constexpr Eigen::Index kNumInliers = 30;
@@ -165,4 +165,4 @@ TEST_P(MethodInvariance, NeitherPoseNorVerdictKnowsOfAFltMax) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::method_invariance_test

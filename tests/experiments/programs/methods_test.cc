@@ -17,7 +17,7 @@
 #include "tests/support/ins_solutions.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::methods_test {
 namespace {
 
 using ::testing::Contains;
@@ -375,4 +375,4 @@ TEST(Methods, AutoTakesArcConsensusAboveTwentyThousandMatches) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::methods_test

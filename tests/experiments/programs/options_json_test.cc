@@ -10,7 +10,7 @@
 
 #include "robust/registration/methods.h"
 
-namespace quatro {
+namespace quatro::options_json_test {
 namespace {
 
 TEST(OptionsJson, HasEveryOptionOfEveryMethodButTheThreads) {
@@ -73,4 +73,4 @@ TEST(OptionsJson, OfAnotherLibrarysMethodAreTheCommonOnes) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::options_json_test

@@ -25,7 +25,7 @@
 #include "robust/verdict/verdict.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::pairs_test {
 namespace {
 
 // The success criteria of the registration benchmarks on KITTI.
@@ -293,4 +293,4 @@ TEST_F(PublishedMatchesTest, QuatroSolveFindsThePoses) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pairs_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::progress_line_test {
 namespace {
 
 class ProgressLineTest : public ::testing::Test {
@@ -70,4 +70,4 @@ TEST_F(ProgressLineTest, ATerminalGetsOneLineThatIsWrittenOver) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::progress_line_test

@@ -24,7 +24,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::register_program_test {
 namespace {
 
 using nlohmann::json;
@@ -612,4 +612,4 @@ TEST_F(RegisterProgramTest, ReportOfNoAnswerIsAPageToo) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::register_program_test

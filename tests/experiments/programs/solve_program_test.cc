@@ -27,7 +27,7 @@
 #include "tests/support/random_problems.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::solve_program_test {
 namespace {
 
 using nlohmann::json;
@@ -687,4 +687,4 @@ TEST_F(SolveProgramTest, PictureOfNoAnswerIsAPng) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::solve_program_test

@@ -13,7 +13,7 @@
 #include "robust/gnc/gnc.h"
 #include "robust/gnc/quasi_so3.h"
 
-namespace quatro {
+namespace quatro::gnc_film_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -93,4 +93,4 @@ TEST(FilmOptionsTest, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::gnc_film_test

@@ -23,7 +23,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::protocols_test {
 namespace {
 
 using ::testing::Contains;
@@ -628,4 +628,4 @@ TEST(ProblemFamiliesTest, SeedsMakeOtherProblemsAndBadOptionsAreTold) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::protocols_test

@@ -18,7 +18,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/room_scans.h"
 
-namespace quatro {
+namespace quatro::pair_view_test {
 namespace {
 
 // The points that the page reads from the bytes.
@@ -298,4 +298,4 @@ TEST(ViewOptions, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pair_view_test

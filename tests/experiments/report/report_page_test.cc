@@ -12,7 +12,7 @@
 #include "experiments/report/report_template.h"
 #include "tests/support/pair_results.h"
 
-namespace quatro {
+namespace quatro::report_page_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -119,4 +119,4 @@ TEST(ReportPage, OfNothingIsAPage) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::report_page_test

@@ -16,7 +16,7 @@
 
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::manifest_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -219,4 +219,4 @@ TEST_F(ManifestFileTest, IsReadAndNamedIfItIsBad) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::manifest_test

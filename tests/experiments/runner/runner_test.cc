@@ -24,7 +24,7 @@
 #include "tests/support/room_scans.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::runner_test {
 namespace {
 
 using ::testing::AllOf;
@@ -507,4 +507,4 @@ TEST(StopSignalTest, AClosedTerminalStopsARunUnlessItIsIgnored) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::runner_test

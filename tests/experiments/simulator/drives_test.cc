@@ -24,7 +24,7 @@
 #include "features/base/file.h"
 #include "features/kd_tree.h"
 
-namespace quatro {
+namespace quatro::drives_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -406,4 +406,4 @@ TEST(CityOptionsTest, InvalidOptionsAreNamed) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::drives_test

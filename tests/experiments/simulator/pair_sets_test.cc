@@ -20,7 +20,7 @@
 #include "features/base/file.h"
 #include "features/kd_tree.h"
 
-namespace quatro {
+namespace quatro::pair_sets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -313,4 +313,4 @@ TEST(CalibrationSetsTest, HalfHaveNoOverlap) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pair_sets_test

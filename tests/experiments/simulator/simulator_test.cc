@@ -27,7 +27,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/run_program.h"
 
-namespace quatro {
+namespace quatro::simulator_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -456,4 +456,4 @@ TEST_F(SimulateProgramTest, ANameThatIsTooLongLeavesNoFolder) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::simulator_test

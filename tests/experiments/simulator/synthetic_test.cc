@@ -15,7 +15,7 @@
 
 #include "experiments/protocols/synthetic_protocols.h"
 
-namespace quatro {
+namespace quatro::synthetic_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -302,4 +302,4 @@ TEST(FormatCsv, QuotesWhatHoldsACommaOrAQuote) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::synthetic_test

@@ -22,7 +22,7 @@
 #include "features/base/rigid3.h"
 #include "features/kd_tree.h"
 
-namespace quatro {
+namespace quatro::worlds_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -449,4 +449,4 @@ TEST(RayPatternTest, WhatIsOutOfRangeIsNamed) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::worlds_test

@@ -18,7 +18,7 @@
 #include "experiments/odometry/table_two.h"
 #include "features/base/file.h"
 
-namespace quatro {
+namespace quatro::latex_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST(FormatLatex, PdflatexTakesItWithoutAnOverfullBox) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::latex_test

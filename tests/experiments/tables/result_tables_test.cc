@@ -22,7 +22,7 @@
 #include "features/base/degree.h"
 #include "tests/support/pair_results.h"
 
-namespace quatro {
+namespace quatro::result_tables_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -486,4 +486,4 @@ TEST(FormatTable, ShowsEmptyCells) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::result_tables_test

@@ -19,7 +19,7 @@
 #include "features/base/parallel.h"
 #include "features/base/random.h"
 
-namespace quatro {
+namespace quatro::parallel_random_test {
 namespace {
 
 using ::testing::Each;
@@ -232,4 +232,4 @@ TEST(Parallel, DoesWithoutThreadsThatCannotBeStarted) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::parallel_random_test

@@ -13,7 +13,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::rigid3_test {
 namespace {
 
 constexpr double kTolerance = 1e-14;
@@ -145,4 +145,4 @@ TEST_F(AngleBetweenTest, IsHalfATurnAtMost) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::rigid3_test

@@ -11,7 +11,7 @@
 #include <new>
 #include <vector>
 
-namespace quatro {
+namespace quatro::zeroed_allocator_test {
 namespace {
 
 using Zeros = ZeroedVector<std::uint64_t>;
@@ -56,4 +56,4 @@ TEST(ZeroedAllocator, WhatDoesNotFitIsBadAlloc) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::zeroed_allocator_test

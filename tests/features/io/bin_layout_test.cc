@@ -20,7 +20,7 @@
 #include "features/io/cloud_fields.h"
 #include "features/io/kitti_bin.h"
 
-namespace quatro {
+namespace quatro::bin_layout_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -317,4 +317,4 @@ TEST(RealBins, AreOfFourFloats) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::bin_layout_test

@@ -33,7 +33,7 @@
 #include "features/io/pcd.h"
 #include "features/io/ply.h"
 
-namespace quatro {
+namespace quatro::cloud_io_test {
 namespace {
 
 using ::testing::AllOf;
@@ -1313,4 +1313,4 @@ TEST_F(RealCloudTest, KittiBin) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::cloud_io_test

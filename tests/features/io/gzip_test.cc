@@ -17,7 +17,7 @@
 #include "features/base/file.h"
 #include "features/io/cloud_io.h"
 
-namespace quatro {
+namespace quatro::gzip_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST(Gunzip, CloudsOfEveryFormatAreRead) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::gzip_test

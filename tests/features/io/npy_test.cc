@@ -13,7 +13,7 @@
 
 #include "features/io/cloud_fields.h"
 
-namespace quatro {
+namespace quatro::npy_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -200,4 +200,4 @@ TEST(ParseNpy, RefusesFilesThatAreCutOffOrTooLong) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::npy_test

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace quatro {
+namespace quatro::point_text_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -157,4 +157,4 @@ TEST(ParsePointText, TrajectoriesAreRefused) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::point_text_test

@@ -9,7 +9,7 @@
 #include "experiments/simulator/synthetic.h"
 #include "robust/estimators/arc_consensus.h"
 
-namespace quatro {
+namespace quatro::arc_consensus_large_test {
 namespace {
 
 // Peak memory of this process [kB], or 0 if the system does not report it.
@@ -43,4 +43,4 @@ TEST(LargeArcConsensus, AMillionMatchesOfWhich99PercentAreWrong) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::arc_consensus_large_test

@@ -18,7 +18,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::arc_consensus_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -391,4 +391,4 @@ TEST(ArcConsensusOptions, ErrorNamesTheFieldAndNothingIsTried) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::arc_consensus_test

@@ -17,7 +17,7 @@
 #include "solvers/closed_form/gravity.h"
 #include "tests/support/two_poses.h"
 
-namespace quatro {
+namespace quatro::bound_solver_test {
 namespace {
 
 using ::testing::ElementsAreArray;
@@ -254,4 +254,4 @@ TEST(BoundSolver, ARivalOutsideOfTheBoundsIsNone) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::bound_solver_test

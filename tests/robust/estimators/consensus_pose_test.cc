@@ -13,7 +13,7 @@
 
 #include "experiments/simulator/synthetic.h"
 
-namespace quatro {
+namespace quatro::consensus_pose_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(ConsensusPose, SaysWhyThereIsNoPose) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::consensus_pose_test

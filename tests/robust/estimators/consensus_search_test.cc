@@ -15,7 +15,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::consensus_search_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -346,4 +346,4 @@ TEST(ConsensusSearchOptions, ErrorsNameTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::consensus_search_test

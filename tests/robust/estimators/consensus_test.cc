@@ -9,7 +9,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::consensus_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -96,4 +96,4 @@ TEST(Consensus, MovingBothCloudsDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::consensus_test

@@ -16,7 +16,7 @@
 #include "robust/gnc/surrogate.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::crosscheck_test {
 namespace {
 
 constexpr double kTolerance = 1e-8;  // [rad], [m]
@@ -153,4 +153,4 @@ TEST(Crosscheck, PosesAreAddedToTheReport) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::crosscheck_test

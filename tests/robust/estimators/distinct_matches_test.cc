@@ -14,7 +14,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::distinct_matches_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -145,4 +145,4 @@ TEST_F(DistinctMatchesTest, NoMatchesAreNone) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::distinct_matches_test

@@ -20,7 +20,7 @@
 #include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::fgr_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -377,4 +377,4 @@ TEST(FgrOptions, ErrorNamesTheFieldAndNothingIsTried) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::fgr_test

@@ -14,7 +14,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::match_scorer_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -95,4 +95,4 @@ TEST(MatchScorer, WhatIsNoNumberCostsAsMuchAsAnOutlier) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::match_scorer_test

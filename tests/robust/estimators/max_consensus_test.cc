@@ -14,7 +14,7 @@
 #include "robust/estimators/consensus_search.h"
 #include "tests/support/matched_problems.h"
 
-namespace quatro {
+namespace quatro::max_consensus_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -157,4 +157,4 @@ TEST(MaxConsensusOptions, ErrorsNameTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::max_consensus_test

@@ -18,7 +18,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::polish_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -288,4 +288,4 @@ TEST(PolishOptions, ErrorNamesTheFieldThatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::polish_test

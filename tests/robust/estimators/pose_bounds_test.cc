@@ -16,7 +16,7 @@
 #include "solvers/closed_form/gravity.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::pose_bounds_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -170,4 +170,4 @@ TEST(PoseBounds, WhatIsOutOfRangeIsToldByName) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pose_bounds_test

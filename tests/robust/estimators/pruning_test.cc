@@ -14,7 +14,7 @@
 
 #include "tests/support/matched_problems.h"
 
-namespace quatro {
+namespace quatro::pruning_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -129,4 +129,4 @@ TEST(PruningOptions, ErrorNamesTheFieldThatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pruning_test

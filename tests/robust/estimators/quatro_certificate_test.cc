@@ -15,7 +15,7 @@
 #include "robust/estimators/teaser.h"
 #include "tests/support/matchers.h"
 
-namespace quatro {
+namespace quatro::quatro_certificate_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -205,4 +205,4 @@ TEST_P(DegenerateTest, TeaserNeedsThree) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::quatro_certificate_test

@@ -17,7 +17,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::quatro_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -692,4 +692,4 @@ TEST(QuatroSummary, StartsPessimistic) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::quatro_test

@@ -21,7 +21,7 @@
 #include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::ransac_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -561,4 +561,4 @@ TEST(RansacOptions, ErrorNamesTheFieldAndNothingIsTried) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ransac_test

@@ -13,7 +13,7 @@
 #include "robust/estimators/quatro.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::recovery_test {
 namespace {
 
 // Starts from the true rotation and an incorrect translation.
@@ -117,4 +117,4 @@ TEST(Recovery, QuasiInliersLoseTheirHold) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::recovery_test

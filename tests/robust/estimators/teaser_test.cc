@@ -16,7 +16,7 @@
 #include "tests/support/pose_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::teaser_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -245,4 +245,4 @@ TEST(TeaserOptions, ErrorNamesTheFieldAndNothingIsTried) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::teaser_test

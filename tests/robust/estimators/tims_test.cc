@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace quatro {
+namespace quatro::tims_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -116,4 +116,4 @@ TEST(WeighPoints, APointHasTheLargestWeightOfItsDifferences) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::tims_test

@@ -20,7 +20,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/matchers.h"
 
-namespace quatro {
+namespace quatro::ceres_gnc_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -954,4 +954,4 @@ TEST(CeresGncReport, OfNothingDoneSaysSo) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ceres_gnc_test

@@ -9,7 +9,7 @@
 
 #include "features/base/random.h"
 
-namespace quatro {
+namespace quatro::chi_square_test {
 namespace {
 
 // Upper critical values as printed in NIST/SEMATECH, e-Handbook of Statistical
@@ -84,4 +84,4 @@ TEST(ChiSquareBound, GrowsWithTheDimension) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::chi_square_test

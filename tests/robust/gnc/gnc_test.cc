@@ -16,7 +16,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/matchers.h"
 
-namespace quatro {
+namespace quatro::gnc_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -290,4 +290,4 @@ TEST(GncOptions, InvalidOnesAreRefusedBeforeAnythingIsTried) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::gnc_test

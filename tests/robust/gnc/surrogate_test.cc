@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace quatro {
+namespace quatro::surrogate_test {
 namespace {
 
 // Black-Rangarajan: the weight is the minimum over w in [0, 1] of
@@ -224,4 +224,4 @@ TEST(Welsch, StartsAndFallsAsGemanMcClureDoes) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::surrogate_test

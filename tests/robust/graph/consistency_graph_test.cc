@@ -15,7 +15,7 @@
 
 #include "tests/support/matched_problems.h"
 
-namespace quatro {
+namespace quatro::consistency_graph_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -308,4 +308,4 @@ TEST(ConsistencyOptions, ErrorNamesTheFieldThatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::consistency_graph_test

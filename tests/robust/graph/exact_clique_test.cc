@@ -22,7 +22,7 @@
 #include "robust/graph/max_clique.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::exact_clique_test {
 namespace {
 
 // Options without early stops: the result is the maximum clique.
@@ -437,4 +437,4 @@ TEST(ExactClique, RefusesInvalidOptionsAndSaysWhich) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::exact_clique_test

@@ -11,7 +11,7 @@
 #include "robust/estimators/distinct_matches.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::far_matches_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -78,4 +78,4 @@ TEST(FindPlaceable, KeepsScansWhereverTheyAreAndWhateverTheBound) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::far_matches_test

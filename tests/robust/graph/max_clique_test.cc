@@ -16,7 +16,7 @@
 #include "features/base/random.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::max_clique_test {
 namespace {
 
 using ::testing::Each;
@@ -286,4 +286,4 @@ TEST(FindMaxCore, OfNoVerticesIsEmpty) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::max_clique_test

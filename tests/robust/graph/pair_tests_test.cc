@@ -12,7 +12,7 @@
 
 #include "features/base/random.h"
 
-namespace quatro {
+namespace quatro::pair_tests_test {
 namespace {
 
 constexpr auto kSize = static_cast<Eigen::Index>(kPairBlockSize);
@@ -169,4 +169,4 @@ TEST(Transposed, ExchangesRowsAndColumns) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pair_tests_test

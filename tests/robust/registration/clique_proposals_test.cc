@@ -11,7 +11,7 @@
 
 #include "tests/support/matched_problems.h"
 
-namespace quatro {
+namespace quatro::clique_proposals_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST(ProposeByCliques, HasNoneWithoutMatches) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::clique_proposals_test

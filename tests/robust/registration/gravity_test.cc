@@ -19,7 +19,7 @@
 #include "robust/registration/registration.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::gravity_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -181,4 +181,4 @@ TEST_F(GravityTest, NoneIsRefusedWhereItCannotBe) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::gravity_test

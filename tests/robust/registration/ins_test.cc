@@ -24,7 +24,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::ins_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -534,4 +534,4 @@ TEST(InsOptions, NamesWhatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ins_test

@@ -17,7 +17,7 @@
 #include "robust/registration/presets.h"
 #include "robust/registration/registration.h"
 
-namespace quatro {
+namespace quatro::ladder_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -398,4 +398,4 @@ TEST(PoseSearchOptions, ErrorsNameTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ladder_test

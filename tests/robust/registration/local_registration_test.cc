@@ -10,7 +10,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::local_registration_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -109,4 +109,4 @@ TEST(RegisterLocally, BadInputIsAnError) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::local_registration_test

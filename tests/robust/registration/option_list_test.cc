@@ -13,7 +13,7 @@
 
 #include "robust/registration/methods.h"
 
-namespace quatro {
+namespace quatro::option_list_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -239,4 +239,4 @@ TEST_F(OptionListTest, LocalAlignmentHasItsOwn) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::option_list_test

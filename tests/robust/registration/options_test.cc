@@ -28,7 +28,7 @@
 #include "robust/registration/registration.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::options_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -522,4 +522,4 @@ INSTANTIATE_TEST_SUITE_P(Registry,
                          [](const auto& method) { return method.param; });
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::options_test

@@ -15,7 +15,7 @@
 #include "robust/registration/registration.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::presets_test {
 namespace {
 
 PointCloud CloudOf(const Points& points) {
@@ -250,4 +250,4 @@ TEST_F(AutoOptionsTest, OnePointOrCopiesOfItGiveValidOptions) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::presets_test

@@ -13,7 +13,7 @@
 #include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::refinement_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -240,4 +240,4 @@ TEST(RegisterWithRefinement, NothingIsTriedWithoutAPose) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::refinement_test

@@ -18,7 +18,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::registration_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -461,13 +461,13 @@ TEST_F(RegistrationTest, CloudThatIsTooWideIsAnError) {
   EXPECT_FALSE(summary.target_from_source().has_value());
 }
 
-TEST(RegistrationOptions, DefaultsAreValid) {
+TEST(RegistrationOptionsCheck, DefaultsAreValid) {
   std::string error;
   EXPECT_TRUE(RegistrationOptions().IsValid(&error)) << error;
   EXPECT_TRUE(error.empty());
 }
 
-TEST(RegistrationOptions, ErrorNamesTheFieldAndNothingIsTried) {
+TEST(RegistrationOptionsCheck, ErrorNamesTheFieldAndNothingIsTried) {
   const auto expect_error = [](const auto& change, const char* field) {
     RegistrationOptions options;
     change(&options);
@@ -507,4 +507,4 @@ TEST(RegistrationOptions, ErrorNamesTheFieldAndNothingIsTried) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::registration_test

@@ -13,7 +13,7 @@
 #include "features/base/degree.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::segment_consensus_test {
 namespace {
 
 using ::testing::IsEmpty;
@@ -210,4 +210,4 @@ TEST(SegmentConsensus, FarSegmentsAreNotFound) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::segment_consensus_test

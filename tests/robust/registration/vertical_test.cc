@@ -11,7 +11,7 @@
 #include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::vertical_test {
 namespace {
 
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
@@ -87,4 +87,4 @@ TEST(EstimateVertical, FewNormalsAreNotEnough) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::vertical_test

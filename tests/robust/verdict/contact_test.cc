@@ -15,7 +15,7 @@
 #include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::contact_test {
 namespace {
 
 constexpr double kMaxDistance = 0.8;
@@ -116,4 +116,4 @@ TEST(AreNormalsAligned, WithinTheAngleOrOfOpposites) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::contact_test

@@ -15,7 +15,7 @@
 #include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::evidence_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -475,4 +475,4 @@ TEST(EvidenceOptions, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::evidence_test

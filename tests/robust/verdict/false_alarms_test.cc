@@ -16,7 +16,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::false_alarms_test {
 namespace {
 
 constexpr double kNoiseBound = 0.3;  // [m]
@@ -228,4 +228,4 @@ TEST(RotationFalseAlarms, OfAPoleAreNone) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::false_alarms_test

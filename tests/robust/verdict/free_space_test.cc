@@ -10,7 +10,7 @@
 #include "features/base/rigid3.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::free_space_test {
 namespace {
 
 using Sight = RangeImage::Sight;
@@ -119,4 +119,4 @@ TEST_F(RangeImageTest, WithoutPointsAllIsUnknown) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::free_space_test

@@ -12,7 +12,7 @@
 #include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::geometric_score_test {
 namespace {
 
 constexpr double kMaxDistance = 0.5;
@@ -109,4 +109,4 @@ TEST(GeometricScore, NothingInRangeScoresNothing) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::geometric_score_test

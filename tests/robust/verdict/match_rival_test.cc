@@ -16,7 +16,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::match_rival_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -205,4 +205,4 @@ TEST(MatchRivalOptions, ErrorNamesTheFieldThatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::match_rival_test

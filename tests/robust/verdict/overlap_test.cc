@@ -14,7 +14,7 @@
 #include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::overlap_test {
 namespace {
 
 constexpr double kMaxDistance = 0.5;  // [m]
@@ -144,4 +144,4 @@ TEST_F(StructureOverlapTest, SurfacesThatCrossAreNotMet) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::overlap_test

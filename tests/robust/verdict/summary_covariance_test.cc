@@ -21,7 +21,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::summary_covariance_test {
 namespace {
 
 constexpr double kNoiseBound = 0.3;  // [m]
@@ -201,4 +201,4 @@ TEST_F(AddCovarianceTest, ScaleIsAppliedToTheSource) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::summary_covariance_test

@@ -17,7 +17,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::surface_observability_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -243,4 +243,4 @@ TEST(RegisterInACorridor, NamesThePositionAlongIt) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::surface_observability_test

@@ -23,7 +23,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::ceres_twins_test {
 namespace {
 
 constexpr int kNumProblems = 1000;
@@ -373,4 +373,4 @@ TEST(SecondDerivative, OfAPolynomialByHand) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ceres_twins_test

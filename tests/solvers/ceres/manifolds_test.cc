@@ -18,7 +18,7 @@
 #include "solvers/ceres/ceres_residuals.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::manifolds_test {
 namespace {
 
 Eigen::VectorXd OnCircle(double angle) {
@@ -84,4 +84,4 @@ TEST(Groups, RotateAsTheirMatrixDoes) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::manifolds_test

@@ -13,7 +13,7 @@
 #include "features/base/types.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::observability_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -145,4 +145,4 @@ TEST(UnobservableDirection, SaysWhichAndWhy) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::observability_test

@@ -18,7 +18,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::pose_covariance_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -586,4 +586,4 @@ TEST_F(PoseCovarianceTest, OptionsOutOfRangeAreNamedAndNothingIsTried) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::pose_covariance_test

@@ -25,7 +25,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::exact_yaw_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -619,4 +619,4 @@ TEST(TruncatedYawCost, ByHand) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::exact_yaw_test

@@ -16,7 +16,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::gravity_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -212,4 +212,4 @@ TEST_F(RefineWithInsTest, WhatHoldsNoRotationHasNoAnswer) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::gravity_test

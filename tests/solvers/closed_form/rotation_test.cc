@@ -18,7 +18,7 @@
 #include "tests/support/horn_rotation.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::rotation_test {
 namespace {
 
 constexpr double kTolerance = 1e-12;
@@ -459,4 +459,4 @@ TEST_F(RigidTest, DoesNotAnswerWithoutThreePoints) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::rotation_test

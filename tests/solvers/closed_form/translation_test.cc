@@ -16,7 +16,7 @@
 #include "tests/support/matched_problems.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::translation_test {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -328,4 +328,4 @@ TEST(EstimateTranslation, NoMatchesHaveNone) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::translation_test

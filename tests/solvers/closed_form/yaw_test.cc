@@ -14,7 +14,7 @@
 #include "solvers/ceres/manifolds.h"
 #include "tests/support/matchers.h"
 
-namespace quatro {
+namespace quatro::yaw_test {
 namespace {
 
 constexpr double kTolerance = 1e-12;
@@ -160,4 +160,4 @@ TEST_F(YawTest, AgreesWithCeresOnTheUnitCircle) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::yaw_test

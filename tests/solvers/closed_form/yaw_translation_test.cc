@@ -15,7 +15,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::yaw_translation_test {
 namespace {
 
 constexpr double kTolerance = 1e-12;
@@ -235,4 +235,4 @@ TEST_F(YawTranslationTest, DoesNotAnswerToNaN) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::yaw_translation_test

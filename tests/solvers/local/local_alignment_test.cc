@@ -22,7 +22,7 @@
 #include "tests/support/described_clouds.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::local_alignment_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -102,7 +102,8 @@ class LocalAlignmentTest : public ::testing::TestWithParam<Method> {
   AlignmentSummary Solve(const Points& source,
                          const Points& target,
                          const Rigid3& initial) const {
-    return quatro::Solve(GetParam(), source, target, initial, options_);
+    return local_alignment_test::Solve(
+        GetParam(), source, target, initial, options_);
   }
 
   bool IsIcp() const { return GetParam() == Method::kIcp; }
@@ -625,4 +626,4 @@ TEST(Vgicp, TargetOfTooManyVoxelsIsRefused) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::local_alignment_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::nearest_points_test {
 namespace {
 
 TEST(NearestPoints, AreThoseOfASearchAtEachPlace) {
@@ -50,4 +50,4 @@ TEST(NearestPoints, CloudOfOneOrNone) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::nearest_points_test

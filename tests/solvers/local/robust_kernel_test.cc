@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace quatro {
+namespace quatro::robust_kernel_test {
 namespace {
 
 constexpr RobustKernelType kTypes[] = {RobustKernelType::kNone,
@@ -69,4 +69,4 @@ TEST(RobustKernel, GemanMcClureLevelsOffAtTheSquareOfItsWidth) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::robust_kernel_test

@@ -15,7 +15,7 @@
 #include "experiments/odometry/aloam/line_plane_residuals.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::line_plane_alignment_test {
 namespace {
 
 Rigid3 RandomPose(std::uint64_t seed, double angle, double distance) {
@@ -234,4 +234,4 @@ TEST(LinePlaneOptions, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::line_plane_alignment_test

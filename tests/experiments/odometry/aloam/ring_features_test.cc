@@ -17,7 +17,7 @@
 #include "experiments/odometry/aloam/scan_rings.h"
 #include "features/base/degree.h"
 
-namespace quatro {
+namespace quatro::ring_features_test {
 namespace {
 
 // A level ring over azimuths -60 ... 60 deg in steps of 0.2 deg, with the range
@@ -197,4 +197,4 @@ TEST(RingFeatureOptions, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::ring_features_test

@@ -17,7 +17,7 @@
 #include "features/io/cloud_io.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::scan_rings_test {
 namespace {
 
 std::vector<double> EvenElevations(int n, double top_deg, double bottom_deg) {
@@ -165,4 +165,4 @@ TEST(EstimateScanRings, OfKittiAre64) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::scan_rings_test

@@ -14,7 +14,7 @@
 
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::projective_icp_test {
 namespace {
 
 SphericalImage Image() {
@@ -134,4 +134,4 @@ TEST(ProjectiveIcpOptions, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::projective_icp_test

@@ -12,7 +12,7 @@
 #include "features/base/rigid3.h"
 #include "tests/support/random_problems.h"
 
-namespace quatro {
+namespace quatro::vertex_map_test {
 namespace {
 
 TEST(SphericalImageTest, RayOfAPixelIsInThatPixel) {
@@ -149,4 +149,4 @@ TEST(SphericalImageTest, ErrorNamesTheField) {
 }
 
 }  // namespace
-}  // namespace quatro
+}  // namespace quatro::vertex_map_test
