@@ -110,6 +110,20 @@ class CandidateSolver {
   double noise_bound_;
 };
 
+// The candidates that are tried, in this order: the first, and the one with the
+// best geometry if that is another.
+std::vector<std::size_t> Tried(const std::vector<PoseCandidate>& candidates) {
+  if (candidates.empty()) return {};
+  const auto best =
+      std::max_element(candidates.begin(),
+                       candidates.end(),
+                       [](const PoseCandidate& a, const PoseCandidate& b) {
+                         return a.geometry.value() < b.geometry.value();
+                       });
+  if (best == candidates.begin()) return {0};
+  return {0, static_cast<std::size_t>(best - candidates.begin())};
+}
+
 // The matches of a rung.
 MatchedPoints MatchesOf(int rung,
                         const MatchedPoints& mutual_matches,
@@ -189,7 +203,7 @@ class Ladder {
         break;
       }
       Stopwatch stopwatch;
-      MatchedPoints matches = MatchesOf(rung, mutual_matches_, problem_);
+      const MatchedPoints matches = MatchesOf(rung, mutual_matches_, problem_);
       const std::vector<ProposedPose> cliques =
           rung == 1 && options_.search.cliques
               ? ProposeByCliques(matched_source, matched_target, options_)
@@ -202,19 +216,21 @@ class Ladder {
                         cliques,
                         problem_.bounds);
       FinishSearch(&stopwatch);
-      if (candidates.empty()) continue;
-      RegistrationSummary attempt = Attempt(matches.source,
-                                            matches.target,
-                                            rung,
-                                            candidates[0].target_from_source);
+      for (const std::size_t k : Tried(candidates)) {
+        RegistrationSummary attempt = Attempt(matches.source,
+                                              matches.target,
+                                              rung,
+                                              candidates[k].target_from_source);
+        if (attempt.verdict.IsRegistered() ||
+            attempt.verdict.probability > summary_.verdict.probability) {
+          Take(std::move(attempt));
+          answer = matches;
+        }
+        if (summary_.verdict.IsRegistered()) break;
+      }
       summary_.candidates.insert(summary_.candidates.end(),
                                  std::make_move_iterator(candidates.begin()),
                                  std::make_move_iterator(candidates.end()));
-      if (attempt.verdict.IsRegistered() ||
-          attempt.verdict.probability > summary_.verdict.probability) {
-        Take(std::move(attempt));
-        answer = std::move(matches);
-      }
     }
     return answer;
   }

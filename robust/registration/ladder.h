@@ -8,8 +8,9 @@
 //   rung 2  as rung 1, with coarser voxels and descriptors of larger radii
 //   rung 3  as rung 1, with the matches of three rounds (features/matching.h)
 //
-// Each rung takes its best candidate and runs the estimator on the inliers of
-// that candidate. So the yaw comes from GNC with its certificate. Ten inliers
+// Each rung takes its best candidate and, if that is not registered, the one
+// that fits the geometry best, and runs the estimator on the inliers of the
+// candidate. So the yaw comes from GNC with its certificate. Ten inliers
 // determine a pose less accurately than the surfaces do, so the pose is then
 // aligned with the clouds by VG-ICP in SE(3). If the structure of the scans
 // fits the candidate better than this pose, the candidate is kept. The clouds

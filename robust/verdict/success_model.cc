@@ -18,9 +18,9 @@ constexpr double kMatchesWeights[] = {3.577, 3.931};
 constexpr double kCloudsIntercept = -8.557;
 constexpr double kCloudsWeights[] = {
     0.0, 0.984, 2.046, 3.001, 1.926, 2.576, 1.616};
-constexpr double kSearchIntercept = -11.792;
+constexpr double kSearchIntercept = -14.281;
 constexpr double kSearchWeights[] = {
-    0.0, 0.087, 1.174, 3.389, 1.611, 2.697, 1.69, 3.906, 0.0, 1.565};
+    0.0, 0.0, 0.893, 4.382, 2.032, 4.444, 1.026, 3.258, 1.135, 2.219};
 
 // The upper ends of ramps.
 constexpr double kLargeOverlap = 0.3;
