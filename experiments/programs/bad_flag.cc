@@ -213,7 +213,7 @@ std::string NearestName(const std::string& name,
 
 std::string SpellAsFlags(std::string message) {
   constexpr std::string_view kMethod = "method ";
-  ReplaceAssignments(&message);
+  if (!message.starts_with("--")) ReplaceAssignments(&message);
   if (message.starts_with(kMethod) && IsFlag("method")) {
     message = "--" + message.replace(0, kMethod.size(), "method=");
   }

@@ -34,7 +34,8 @@ std::string NearestName(const std::string& name,
 // this program, if it has them: "voxel_size = -1, must be > 0" becomes
 // "--voxel_size=-1, must be > 0", and "method fgr works" becomes
 // "--method=fgr works". "num_pairs = 0" becomes "--pairs=0" if there is no flag
-// --num_pairs.
+// --num_pairs. A message that begins with a flag is about its value, and keeps
+// "name = ".
 std::string SpellAsFlags(std::string message);
 
 }  // namespace quatro

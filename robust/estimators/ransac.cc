@@ -329,6 +329,13 @@ RansacSummary SolveRansac(const PointsRef& source,
       !ConstrainPose(problem, problem.near, options.minimal);
   if (are_too_few && !are_all_alike) {
     std::ostringstream message;
+    if (summary.num_matches < num_needed) {
+      message << "a pose needs at least " << num_needed
+              << " matches, but there are only " << summary.num_matches
+              << "; use larger radii or other scans";
+      summary.message = message.str();
+      return summary;
+    }
     message << "no pose with at least " << num_needed
             << " inliers was found in " << summary.num_iterations
             << " samples of " << summary.num_matches

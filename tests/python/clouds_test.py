@@ -212,6 +212,17 @@ def test_a_name_of_another_type_is_refused_in_one_line(wrong):
         assert str(error.value) == 'preset = %r, must be a str' % (wrong,)
 
 
+def test_a_mirrored_scan_is_not_turned_upside_down():
+    scan = problems.scan(1, 1)[::3]
+    scan[:, 2] += np.random.default_rng(5).normal(0, 0.03, len(scan))
+    # Upside down, the ground fits its mirror image exactly.
+    answer = quatro.register(scan * [-1, 1, 1], scan, 'kitti', max_rung=1)
+    assert not answer.is_registered, answer
+    assert len(answer.candidates) > 3
+    for candidate in answer.candidates:
+        assert candidate['target_from_source'][2][2] > 0
+
+
 @pytest.mark.parametrize('function, arguments, options, text', [
     (quatro.register, (), {}, 'register() needs source; call it as register(source, target, '
                               'preset="auto", *, method="quatro", **options)'),

@@ -149,6 +149,8 @@ TEST(SpellAsFlags, SeveralOptionsAndNumbersOfThings) {
             "--pairs=4, must be in [1, --test_seed=3]");
   EXPECT_EQ(SpellAsFlags("no frame is left: first_frame = 7 is after the last"),
             "no frame is left: --first_frame=7 is after the last");
+  EXPECT_EQ(SpellAsFlags("--options: pairs = 4, must be in [5, 9]"),
+            "--options: pairs = 4, must be in [5, 9]");
   EXPECT_EQ(SpellAsFlags("leave it out with first_frame"),
             "leave it out with --first_frame");
   EXPECT_EQ(SpellAsFlags("line 3: 'pairs = 4' is not a number"),

@@ -94,7 +94,7 @@ TEST(BoundSolver, APoseOutsideIsNoAnswer) {
   EXPECT_FALSE(summary.IsUsable());
   EXPECT_THAT(summary.message,
               HasSubstr("the best pose is outside of the bounds: it is"));
-  EXPECT_THAT(summary.message, HasSubstr("at most 3 m"));
+  EXPECT_THAT(summary.message, HasSubstr("the bounds allow 3 m"));
 }
 
 // The 90 matches that follow problem.many follow `pose` instead.

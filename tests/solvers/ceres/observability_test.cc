@@ -139,9 +139,9 @@ TEST(UnobservableDirection, SaysWhichAndWhy) {
               HasSubstr("not estimated, but assumed with"));
   direction.standard_deviation.reset();
   direction.reason = UnobservableReason::kNoData;
-  EXPECT_THAT(direction.Describe(), HasSubstr("unbounded"));
+  EXPECT_THAT(direction.Describe(), HasSubstr("no inlier constrains it"));
   direction.reason = UnobservableReason::kWithinNoise;
-  EXPECT_THAT(direction.Describe(), HasSubstr("within the noise"));
+  EXPECT_THAT(direction.Describe(), HasSubstr("by less than their noise"));
 }
 
 }  // namespace
