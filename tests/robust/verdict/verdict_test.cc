@@ -219,21 +219,20 @@ TEST(Judge, MoreInliersNearASearchedPoseNeverLowerItsProbability) {
   evidence.rival_free_space = {30, 70};
   evidence.rival.overlap = 0.2;
   evidence.rival.rival_overlap = 0.1;
-  const auto probability_of = [&](Eigen::Index num_inliers,
-                                  bool is_first,
-                                  double segment_ratio = 3.0) {
-    evidence.search = SearchEvidence{.num_guided_matches = 1000,
-                                     .num_guided_inliers = num_inliers,
-                                     .segment_ratio = segment_ratio,
-                                     .is_first = is_first};
-    const Verdict verdict = Judge(problem.source,
-                                  problem.target,
-                                  TruthOf(problem),
-                                  kNoiseBound,
-                                  evidence,
-                                  {});
-    return verdict.probability;
-  };
+  const auto probability_of =
+      [&](Eigen::Index num_inliers, bool is_first, double segment_ratio = 3.0) {
+        evidence.search = SearchEvidence{.num_guided_matches = 1000,
+                                         .num_guided_inliers = num_inliers,
+                                         .segment_ratio = segment_ratio,
+                                         .is_first = is_first};
+        const Verdict verdict = Judge(problem.source,
+                                      problem.target,
+                                      TruthOf(problem),
+                                      kNoiseBound,
+                                      evidence,
+                                      {});
+        return verdict.probability;
+      };
   EXPECT_GT(probability_of(50, true), probability_of(20, true));
   EXPECT_GT(probability_of(20, true), probability_of(0, true));
   EXPECT_EQ(probability_of(500, true), probability_of(100, true));
