@@ -22,6 +22,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 const SetPair& FarPair() {
   static const SetPair pair = [] {
@@ -121,19 +122,30 @@ TEST(Ladder, MatchesAgainNearASearchedPose) {
   EXPECT_FALSE(own.verdict.geometry->search);
 }
 
-TEST(Ladder, SegmentsProposePoses) {
-  const auto num_of_segments = [](const RegistrationSummary& summary) {
-    return std::count_if(summary.candidates.begin(),
-                         summary.candidates.end(),
-                         [](const PoseCandidate& candidate) {
-                           return candidate.origin.find("segments") !=
-                                  std::string::npos;
-                         });
-  };
-  RegistrationOptions options;
-  EXPECT_GT(num_of_segments(RegisterFar(options)), 0);
-  options.search.segments = false;
-  EXPECT_EQ(num_of_segments(RegisterFar(options)), 0);
+// Each source of proposals finds the pose alone, and nothing is proposed
+// without them.
+TEST(Ladder, EachSourceOfProposalsCanBeUsedAlone) {
+  RegistrationOptions none;
+  none.search.consensus = false;
+  none.search.cliques = false;
+  none.search.segments = false;
+  EXPECT_THAT(RegisterFar(none).candidates, IsEmpty());
+  RegistrationOptions segments = none;
+  segments.search.segments = true;
+  RegistrationOptions consensus = none;
+  consensus.search.consensus = true;
+  for (const auto& [options, name] : {std::pair{segments, "rung 1, segments"},
+                                      std::pair{consensus, "rung 1"}}) {
+    const RegistrationSummary summary = RegisterFar(options);
+    ASSERT_THAT(summary.candidates, Not(IsEmpty())) << name;
+    EXPECT_THAT(summary.candidates[0].origin, HasSubstr(name));
+    ASSERT_TRUE(summary.target_from_source()) << name;
+    EXPECT_LT((summary.target_from_source()->translation -
+               FarPair().true_target_from_source->translation)
+                  .norm(),
+              0.5)
+        << name;
+  }
 }
 
 // The estimator's pose of a few inliers is polished by the surfaces.
