@@ -33,7 +33,10 @@ struct Wall {
   double bottom = 0.0;  // The extent in z.
   double top = 0.0;
 
+  // Along the tangent [m].
   double length() const { return end - begin; }
+
+  // In z [m].
   double height() const { return top - bottom; }
 };
 
@@ -45,6 +48,7 @@ struct Post {
   double top = 0.0;
   bool is_pole = false;  // Otherwise a cluster, such as a car or a bush.
 
+  // In z [m].
   double height() const { return top - bottom; }
 };
 
