@@ -48,18 +48,18 @@ log=build/setup.log
 quatro_step "installing" quatro_install
 quatro_step "configuring" quatro_configure release build
 quatro_step "building (a few minutes the first time)" \
-     quatro_build build quatro_simulate quatro_experiment
+     quatro_build build quatro_simulate quatro_experiment quatro_register
 
 drives=(00 02 05 06 07 08)
 if [[ $quick ]]; then
   # Scans are 4 m apart, except for odometry.
   spacing=4 gap=25 per_source=0 pairs_one=8 pairs_three=6 pairs_yaw=3 pairs_timing=4 frames=106
-  frames_inside=300 problems=10 lc_gap=62 pairs_lc=3 pairs_ablation=1
+  frames_inside=300 problems=10 lc_gap=62 pairs_lc=3 pairs_ablation=2
   intervals=(1 5)
   odometries=quatro,quatro_c2f,gicp,suma,aloam
 else
   spacing=1 gap=100 per_source=3 pairs_one=200 pairs_three=200 pairs_yaw=50 pairs_timing=50 frames=600
-  frames_inside=0 problems=100 lc_gap=250 pairs_lc=100 pairs_ablation=50
+  frames_inside=0 problems=100 lc_gap=250 pairs_lc=100 pairs_ablation=100
   intervals=(1 3 5)
   odometries=icp,gicp,vgicp,fgr,teaser,quatro,suma,aloam,quatro_c2f
 fi
@@ -127,7 +127,12 @@ run loops --protocol=loop --data="$drive_data" --preset="$preset" \
     --bins=0-10,10-20,20-30 --max_pairs="$pairs_lc" --limits=2/5,2/10,0.6/5 \
     --methods=quatro,quatro_single,teaser,ransac10k,arc_consensus
 draw loops distance
-# The ablation: each part of the search off in turn.
+# The ablation: each part of the search off in turn, on pairs 20 to 30 m apart.
+for world in street crossing hill; do
+  echo "simulating $world" >&2
+  build/bin/quatro_simulate --protocol=pairs --world="$world" --min_distance=20 --seed=77 \
+      --pairs="$pairs_ablation" --output="$output/data/far/$world"
+done
 for part in none consensus segments cliques geometric_choice guided_matching rung_2 rung_3; do
   case $part in
     none) options=() ;;
@@ -135,9 +140,13 @@ for part in none consensus segments cliques geometric_choice guided_matching run
     rung_3) options=(--options=max_rung=2) ;;
     *) options=(--options="$part=off") ;;
   esac
-  run "ablation/$part" --protocol=loop --data="$drive_data" --preset="$preset" \
-      --sequences=00,02,05,06,07,08 --min_frame_gap="$lc_gap" --min_pair_spacing=2 \
-      --bins=20-30 --max_pairs="$pairs_ablation" --methods=quatro "${options[@]}"
+  echo "running ablation/$part" >&2
+  mkdir -p "$output/ablation/$part"
+  for world in street crossing hill; do
+    python3 experiments/scripts/run_pairs.py --pairs="$output/data/far/$world/pairs.csv" \
+        --output="$output/ablation/$part/$world.csv" -- --preset="$preset" "${options[@]}" \
+        >"$output/ablation/$part/$world.txt"
+  done
 done
 run table_two --protocol=odometry --data="$odometry_data" --sequences=00 --preset="$preset" \
     --intervals="$(IFS=,; echo "${intervals[*]}")" --max_frames="$frames" --methods="$odometries"

@@ -75,15 +75,15 @@ class ReportPaperTest(unittest.TestCase):
     def test_the_ablation_counts_pairs(self):
         self.write("table_one/tables/table_one.csv", TABLE_ONE.format(quatro="99.50"))
         self.assertNotIn("one part of the search off", self.run_script().stdout)
-        header = "pair,method,status,translation_error_m,rotation_error_deg,total_ms\n"
-        self.write("ablation/none/results.csv",
-                   header + "a,quatro,registered,0.1,1,20\nb,quatro,registered,1.9,4.9,30\n")
-        self.write("ablation/segments/results.csv",
-                   header + "a,quatro,registered,0.1,5.1,20\nb,quatro,ambiguous,,,40\n")
+        header = "set,status,translation_error_m,rotation_error_deg,total_ms\n"
+        for world, rows in (("street", "a,registered,0.1,1,20\nb,registered,1.9,4.9,30\n"),
+                            ("crossing", "a,registered,0.1,5.1,20\nb,ambiguous,,,40\n"),
+                            ("hill", "a,registered,3.0,1,20\n")):
+            self.write(f"ablation/none/{world}.csv", header + rows)
+        self.write("ablation/segments/street.csv", header + "a,registered,0.1,1,20\n")
         page = self.run_script().stdout
-        self.assertIn("| nothing | 2 | 2 | 2 | 0 | 25 |", page)
-        self.assertIn("| segments | 2 | 0 | 1 | 1 | 30 |", page)
-        self.assertNotIn("| cliques |", page)
+        self.assertIn("| nothing | 2 of 2 | 0 of 2 | 0 of 1 | 4 | 1 | 20 |", page)
+        self.assertNotIn("| segments |", page)
 
     def test_drift_at_five_may_be_better(self):
         for five, expected in (("0.10", "holds"), ("0.75", "holds"), ("0.76", "does not hold")):
