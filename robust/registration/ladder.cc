@@ -110,10 +110,12 @@ class CandidateSolver {
   double noise_bound_;
 };
 
-// The candidates that are tried, in this order: the first, and the one with the
-// best geometry if that is another.
-std::vector<std::size_t> Tried(const std::vector<PoseCandidate>& candidates) {
+// The candidates that are tried, in this order: the first and, if the geometry
+// chooses, the one that fits it best if that is another.
+std::vector<std::size_t> Tried(const std::vector<PoseCandidate>& candidates,
+                               bool geometric_choice) {
   if (candidates.empty()) return {};
+  if (!geometric_choice) return {0};
   const auto best =
       std::max_element(candidates.begin(),
                        candidates.end(),
@@ -216,7 +218,8 @@ class Ladder {
                         cliques,
                         problem_.bounds);
       FinishSearch(&stopwatch);
-      for (const std::size_t k : Tried(candidates)) {
+      for (const std::size_t k :
+           Tried(candidates, options_.search.geometric_choice)) {
         RegistrationSummary attempt = Attempt(matches.source,
                                               matches.target,
                                               rung,
