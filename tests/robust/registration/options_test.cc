@@ -362,8 +362,6 @@ const std::multimap<std::string, std::string>& Needed() {
       {"edge_test", "max_iterations=3"},
       {"quatro.consistency_test", "max_rung=0"},
       {"quatro.max_tilt", "max_rung=0"},
-      {"auto.consistency_test", "max_rung=0"},
-      {"auto.max_tilt", "max_rung=0"},
       {"max_rung", "min_probability=1"},
       {"max_num_proposals", "min_probability=1"},
       {"num_aligned", "min_probability=1"},
@@ -427,8 +425,9 @@ void Set(const Method& method,
         << error;
     is_set = true;
   }
-  // quatro_c2f defines its refinement.
-  EXPECT_TRUE(is_set || method.input == MethodInput::kMatchedClouds)
+  // quatro_c2f defines its refinement, and quatro_single does not search.
+  EXPECT_TRUE(is_set || method.input == MethodInput::kMatchedClouds ||
+              !method.searches)
       << method.name << " has no " << name_and_value;
 }
 
