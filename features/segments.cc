@@ -15,7 +15,7 @@ namespace quatro {
 namespace {
 
 // Lengths in voxels.
-constexpr double kWallThickness = 2.0;  // Half of it.
+constexpr double kWallThickness = 2.0;  // To either side of the plane.
 constexpr double kMaxGap = 10.0;
 constexpr double kMinWallLength = 10.0;
 constexpr double kMinWallHeight = 5.0;

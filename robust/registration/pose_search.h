@@ -74,8 +74,8 @@ struct PoseSearchOptions {
   // The largest residual of an inlier of a candidate, in noise bounds.
   double bound_factor = 2.0;
 
-  // What proposes poses. With `segments`, the walls, poles and clusters of the
-  // scans also count for the proposals of others.
+  // The sources of proposals that are used. If `segments` is set, the walls,
+  // poles and clusters of the scans also support the other proposals.
   bool consensus = true;
   bool cliques = true;
   bool segments = true;
@@ -96,7 +96,9 @@ struct PoseSearchOptions {
 struct PoseCandidate {
   Rigid3 target_from_source;
   std::string origin;  // The rung and the vertical of its proposal.
-  double log_likelihood_ratio = 0.0;  // Of the matches and of the segments.
+
+  // The sum of that of the matches and that of the segments [nat].
+  double log_likelihood_ratio = 0.0;
   GeometricScore geometry;
 
   // (1)

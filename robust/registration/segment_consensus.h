@@ -58,7 +58,7 @@ class SegmentConsensus {
   // the median difference of the lower ends.
   std::vector<Rigid3> Propose(int max_num) const;
 
-  // (2) of a pose, of which the tilt is ignored [nat].
+  // The ratio (2) for any pose [nat]. The tilt of the pose is ignored.
   double LogLikelihoodRatio(const Rigid3& target_from_source) const;
 
  private:
