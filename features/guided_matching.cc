@@ -3,8 +3,6 @@
 
 #include "features/guided_matching.h"
 
-#include <glog/logging.h>
-
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -72,7 +70,7 @@ std::vector<Match> MatchGuided(const DescribedCloud& source,
                                const Rigid3& target_from_source,
                                double radius,
                                int num_threads) {
-  CHECK(source.descriptors && target.descriptors);
+  if (!source.descriptors || !target.descriptors) return {};
   const std::vector<std::int32_t> of_source =
       NearestGuided(source, target, target_from_source, radius, num_threads);
   const std::vector<std::int32_t> of_target = NearestGuided(

@@ -23,9 +23,9 @@
 
 namespace quatro {
 
-// Returns the matches in ascending order of `source`. Both clouds must have
-// descriptors; points without a normal or with an all-zero descriptor have no
-// match. `radius` is in [m]. The result is the same for any `num_threads`.
+// Returns the matches in ascending order of `source`. Clouds without
+// descriptors, and points without a normal or with an all-zero descriptor, have
+// no match. `radius` is in [m]. The result is the same for any `num_threads`.
 std::vector<Match> MatchGuided(const DescribedCloud& source,
                                const DescribedCloud& target,
                                const Rigid3& target_from_source,

@@ -5,46 +5,67 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 #include <vector>
+
+#include "features/cells.h"
 
 namespace quatro {
 namespace {
 
 constexpr Eigen::Index kMaxSamples = 2000;
-constexpr std::size_t kMinNeighbors = 5;
+constexpr int kMinNeighbors = 5;
 constexpr double kMinWidth = 0.1;  // lambda_2 / lambda_1.
 
-bool IsSurface(const Points& points, const std::vector<Neighbor>& neighbors) {
-  if (neighbors.size() < kMinNeighbors) return false;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Neighbor& neighbor : neighbors) mean += points.col(neighbor.index);
-  mean /= static_cast<double>(neighbors.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Neighbor& neighbor : neighbors) {
-    const Eigen::Vector3d offset = points.col(neighbor.index) - mean;
-    scatter += offset * offset.transpose();
+// Whether the points within `radius` of `center`, all among those of `near`,
+// are on a surface.
+bool IsSurface(const Points& points,
+               const std::vector<std::int32_t>& near,
+               const Eigen::Vector3d& center,
+               double radius) {
+  int num = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const std::int32_t i : near) {
+    const Eigen::Vector3d offset = points.col(i) - center;
+    if (offset.squaredNorm() > radius * radius) continue;
+    ++num;
+    sum += offset;
+    squares += offset * offset.transpose();
   }
-  const Eigen::Vector3d lambda = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                                     scatter, Eigen::EigenvaluesOnly)
-                                     .eigenvalues();
+  if (num < kMinNeighbors) return false;
+  // The scatter in units of the radius has no extreme scale.
+  const Eigen::Matrix3d scatter =
+      (squares - sum * sum.transpose() / num) / (radius * radius);
+  const Eigen::Vector3d lambda =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+          .computeDirect(scatter, Eigen::EigenvaluesOnly)
+          .eigenvalues();
   return lambda[1] > kMinWidth * lambda[2];
 }
 
 }  // namespace
 
-double SurfaceShare(const KdTree& tree, double radius) {
-  const Points& points = tree.points();
+double SurfaceShare(const Points& points, double radius) {
+  const auto cells = Cells::Make(points, radius);
+  if (!cells || points.cols() == 0) return 0.0;
   const Eigen::Index step = std::max<Eigen::Index>(
       1, (points.cols() + kMaxSamples - 1) / kMaxSamples);
-  int num_samples = 0;
-  int num_surfaces = 0;
+  std::vector<std::pair<Cells::Key, Eigen::Index>> samples;
   for (Eigen::Index i = 0; i < points.cols(); i += step) {
-    ++num_samples;
-    num_surfaces +=
-        IsSurface(points, tree.WithinRadius(points.col(i), radius)) ? 1 : 0;
+    samples.emplace_back(*cells->KeyOf(points.col(i)), i);
   }
-  return num_samples > 0 ? static_cast<double>(num_surfaces) / num_samples
-                         : 0.0;
+  std::sort(samples.begin(), samples.end());
+
+  Cells::Walk walk(*cells);
+  std::vector<std::int32_t> near;
+  int num_surfaces = 0;
+  for (const auto& [key, i] : samples) {
+    walk.FindNear(key, &near);
+    num_surfaces += IsSurface(points, near, points.col(i), radius) ? 1 : 0;
+  }
+  return static_cast<double>(num_surfaces) /
+         static_cast<double>(samples.size());
 }
 
 }  // namespace quatro

@@ -13,13 +13,14 @@
 #ifndef QUATRO_FEATURES_SURFACE_SHARE_H_
 #define QUATRO_FEATURES_SURFACE_SHARE_H_
 
-#include "features/kd_tree.h"
+#include "features/base/types.h"
 
 namespace quatro {
 
 // The share, in [0, 1], among at most 2000 points spread evenly over the
-// indices of `tree`. `radius` is in meters. Zero if there are no points.
-double SurfaceShare(const KdTree& tree, double radius);
+// indices. `radius` is in meters. Zero if there are no points, or if the cloud
+// is wider than 2^20 radii.
+double SurfaceShare(const Points& points, double radius);
 
 }  // namespace quatro
 

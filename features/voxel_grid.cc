@@ -128,27 +128,4 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
   return samples;
 }
 
-std::optional<Eigen::Index> CountVoxels(const PointsRef& points,
-                                        double voxel_size,
-                                        std::string* error) {
-  const std::optional<Grid> grid = MakeGrid(points, voxel_size, error);
-  if (!grid) return std::nullopt;
-  // A hash table, half empty, of keys plus one; zero is free.
-  const auto num_points = static_cast<std::uint64_t>(points.cols());
-  ZeroedVector<std::uint64_t> table(std::bit_ceil(2 * num_points + 1));
-  const int shift = 64 - std::countr_zero(table.size());
-  Eigen::Index num_cells = 0;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const std::uint64_t entry = grid->KeyOf(points.col(i)) + 1;
-    // Fibonacci hashing: the high bits of the product are well mixed.
-    std::uint64_t at = entry * 0x9e3779b97f4a7c15u >> shift;
-    while (table[at] != 0 && table[at] != entry) {
-      at = (at + 1) & (table.size() - 1);
-    }
-    num_cells += table[at] == 0;
-    table[at] = entry;
-  }
-  return num_cells;
-}
-
 }  // namespace quatro

@@ -30,11 +30,6 @@ std::optional<Points> SampleVoxels(const PointsRef& points,
                                    double voxel_size,
                                    std::string* error);
 
-// The number of samples, without computing them.
-std::optional<Eigen::Index> CountVoxels(const PointsRef& points,
-                                        double voxel_size,
-                                        std::string* error);
-
 }  // namespace quatro
 
 #endif  // QUATRO_FEATURES_VOXEL_GRID_H_

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 """Checks who includes whom: fails if a room includes one that does not stand
 before it in ROOMS, if files include each other in a circle, if a room has
-grown too large, or if a file includes one of ours that does not exist.
+grown too large, if a file includes one of ours that does not exist, or if
+features, which links neither glog nor Ceres, includes one of them.
 
   tests/layering_test.py [root of the repository]
 """
@@ -66,6 +67,16 @@ def find_missing(root):
                     yield f'{path}: {included} does not exist'
 
 
+def find_not_linked(root):
+    """One line for each header of glog or Ceres in features."""
+    for file in sorted((root / 'features').rglob('*')):
+        if file.suffix not in ('.h', '.cc'):
+            continue
+        for header in re.findall(r'^#include <((?:glog|ceres)/[^>]+)>',
+                                 file.read_text(encoding='utf-8'), re.M):
+            yield f'{file.relative_to(root).as_posix()}: features does not link {header}'
+
+
 def find_circle(graph):
     """A list of units that include each other in a circle, or None."""
     done = set()
@@ -92,7 +103,7 @@ def find_circle(graph):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                         pathlib.Path(__file__).resolve().parents[1])
-    problems = list(find_missing(root))
+    problems = list(find_missing(root)) + list(find_not_linked(root))
     graph = {}
     sizes = {}
     num_includes = 0

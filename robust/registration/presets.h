@@ -29,13 +29,8 @@ std::vector<std::string> PresetNames();
 // Returns nullopt for any other name.
 std::optional<RegistrationOptions> MakePreset(const std::string& name);
 
-// Options for these clouds from their density and extent. The voxel size starts
-// as the size at which the larger cloud keeps about 15,000 points, but at least
-// the typical distance between neighbors in the sparser cloud. It is then
-// enlarged, at most by a factor of 16, until two thirds of the points have a
-// surface within the radius of the normals (features/surface_share.h), or not
-// at all if no such size suffices. Sensors with few beams need this. Clouds
-// without points give 0.3 m.
+// Options for these clouds. The voxel size comes from their density and extent
+// (auto_voxel_size.h); clouds without one get 0.3 m.
 RegistrationOptions MakeAutoOptions(const PointCloud& source,
                                     const PointCloud& target);
 

@@ -7,11 +7,12 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <sstream>
-#include <unordered_map>
+#include <vector>
 
-#include "features/base/random.h"
+#include "features/base/key_numbers.h"
 #include "features/base/stopwatch.h"
 
 namespace quatro {
@@ -24,10 +25,6 @@ struct Voxel {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // Mean of C.
   double count = 0.0;
-};
-
-struct MixedHash {
-  std::size_t operator()(std::uint64_t key) const { return Mix(key); }
 };
 
 class VoxelMap {
@@ -43,12 +40,14 @@ class VoxelMap {
     // digits.
     for (Eigen::Index j = 0; j < points.cols(); ++j) {
       const Eigen::Vector3d point = points.col(j);
-      Voxel& voxel = voxels_[Key(Cell(point))];
+      const std::size_t number = numbers_.Add(Key(Cell(point)));
+      if (number == voxels_.size()) voxels_.emplace_back();
+      Voxel& voxel = voxels_[number];
       voxel.count += 1.0;
       voxel.mean += (point - voxel.mean) / voxel.count;
       voxel.covariance += SurfaceCovariance(cloud.normals.col(j), epsilon);
     }
-    for (auto& [key, voxel] : voxels_) voxel.covariance /= voxel.count;
+    for (Voxel& voxel : voxels_) voxel.covariance /= voxel.count;
   }
 
   const Voxel* Find(const Eigen::Vector3d& x) const {
@@ -57,8 +56,8 @@ class VoxelMap {
         !((last_cell_ - cell).array() >= 0.0).all()) {
       return nullptr;
     }
-    const auto found = voxels_.find(Key(cell));
-    return found == voxels_.end() ? nullptr : &found->second;
+    const std::size_t number = numbers_.Find(Key(cell));
+    return number == voxels_.size() ? nullptr : &voxels_[number];
   }
 
  private:
@@ -77,7 +76,8 @@ class VoxelMap {
   double voxel_size_;
   Eigen::Vector3d first_cell_ = Eigen::Vector3d::Constant(1.0);
   Eigen::Vector3d last_cell_ = Eigen::Vector3d::Constant(-1.0);
-  std::unordered_map<std::uint64_t, Voxel, MixedHash> voxels_;
+  KeyNumbers numbers_;
+  std::vector<Voxel> voxels_;
 };
 
 class VgicpTerms final : public AlignmentTerms {

@@ -120,6 +120,14 @@ TEST(MatchGuided, OfACloudWithItselfIsTheIdentity) {
   for (const Match& match : matches) EXPECT_EQ(match.source, match.target);
 }
 
+TEST(MatchGuided, WithoutDescriptorsHasNoMatches) {
+  const DescribedCloud cloud = MakeCloud(100, 1);
+  DescribedCloud bare = cloud;
+  bare.descriptors.reset();
+  EXPECT_THAT(MatchGuided(bare, cloud, Rigid3(), kRadius, 1), IsEmpty());
+  EXPECT_THAT(MatchGuided(cloud, bare, Rigid3(), kRadius, 1), IsEmpty());
+}
+
 TEST(MatchGuided, FarApartOrEmptyHasNoMatches) {
   const DescribedCloud cloud = MakeCloud(100, 1);
   const Rigid3 far{Eigen::Matrix3d::Identity(), {100.0, 0.0, 0.0}};

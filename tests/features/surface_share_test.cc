@@ -26,7 +26,7 @@ Points Rows(int num_rows, double gap) {
 }
 
 double Share(const Points& points, double radius) {
-  return SurfaceShare(KdTree(points), radius);
+  return SurfaceShare(points, radius);
 }
 
 TEST(SurfaceShare, RowsAreASurfaceOnceTheRadiusReachesTheNext) {

@@ -137,20 +137,6 @@ TEST(SampleVoxels, MovingByWholeCellsMovesTheSamples) {
   ExpectSamples(moved.colwise() - offset, samples, 1e-8);
 }
 
-TEST(CountVoxels, IsTheNumberOfSamples) {
-  std::string error;
-  for (const Eigen::Index n : {0, 1, 2, 3000}) {
-    const Points points = RandomPoints(n, 5.0, 3);
-    for (const double voxel_size : {0.01, 0.3, 1.7, 100.0}) {
-      EXPECT_EQ(CountVoxels(points, voxel_size, &error),
-                SampleVoxels(points, voxel_size, &error)->cols())
-          << n << " " << voxel_size;
-    }
-  }
-  EXPECT_FALSE(CountVoxels(RandomPoints(5, 1.0, 1), 0.0, &error));
-  EXPECT_THAT(error, HasSubstr("voxel_size = 0"));
-}
-
 TEST(SampleVoxels, OnePointIsItsOwnSample) {
   const Eigen::Vector3d point(0.1, -3.7, 12.9);
   for (const double voxel_size : {1e-3, 0.3, 1e6}) {

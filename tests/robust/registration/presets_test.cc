@@ -24,10 +24,6 @@ PointCloud CloudOf(const Points& points) {
   return cloud;
 }
 
-double AutoVoxelSize(const Points& source, const Points& target) {
-  return MakeAutoOptions(CloudOf(source), CloudOf(target)).front_end.voxel_size;
-}
-
 TEST(MakePreset, EveryNameGivesValidOptions) {
   const std::vector<std::string> names = PresetNames();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(),
@@ -95,7 +91,6 @@ TEST(MakePreset, IndoorIsKittiAtAThird) {
 class AutoOptionsTest : public ::testing::Test {
  protected:
   const Points dense_ = RandomStreet(60000, 0.01, /*seed=*/1);
-  const Points sparse_ = dense_.leftCols(1500);
 };
 
 TEST_F(AutoOptionsTest, AreValidAndInProportion) {
@@ -107,26 +102,6 @@ TEST_F(AutoOptionsTest, AreValidAndInProportion) {
   EXPECT_NEAR(options.front_end.normal_radius, 3.0 * voxel_size, 1e-12);
   EXPECT_NEAR(options.front_end.fpfh_radius, 5.0 * voxel_size, 1e-12);
   EXPECT_NEAR(options.noise_bound, voxel_size, 1e-12);
-}
-
-TEST_F(AutoOptionsTest, ScaleWithTheCloud) {
-  const double base = AutoVoxelSize(dense_, dense_);
-  EXPECT_GT(base, 0.02);
-  for (const double scale : {1e-3, 0.5, 3.0, 10.0, 1e3}) {
-    const double scaled = AutoVoxelSize(scale * dense_, scale * dense_);
-    // Found to 3 % and rounded to two digits, each of them, and enlarged in
-    // steps of 15 % for the surfaces.
-    EXPECT_NEAR(scaled / (scale * base), 1.0, 0.2)
-        << "scale " << scale << ", voxels " << scaled << " m for " << base;
-  }
-}
-
-// Of many points, every k-th is enough.
-TEST_F(AutoOptionsTest, ManyPointsGiveTheSizeOfFewer) {
-  const Points many = RandomStreet(900'000, 0.01, /*seed=*/2);
-  const Points fewer = many(Eigen::all, Eigen::seq(0, Eigen::last, 3));
-  EXPECT_NEAR(
-      AutoVoxelSize(many, many) / AutoVoxelSize(fewer, fewer), 1.0, 0.07);
 }
 
 // The lengths of every part, so that nothing but the unit changes.
@@ -180,64 +155,12 @@ TEST(AutoOptions, TheUnitOfTheCloudsDoesNotMatter) {
   EXPECT_EQ(num_registered, 4);
 }
 
-TEST_F(AutoOptionsTest, AreTheSameWithCloudsSwapped) {
-  EXPECT_EQ(AutoVoxelSize(dense_, sparse_), AutoVoxelSize(sparse_, dense_));
-}
-
-TEST_F(AutoOptionsTest, VoxelsAreNoSmallerThanTheSpacingOfTheSparserCloud) {
-  // 1500 points on some 500 m^2 are about 0.3 m apart.
-  EXPECT_GT(AutoVoxelSize(sparse_, sparse_), 0.15);
-  EXPECT_GT(AutoVoxelSize(dense_, sparse_), 0.15);
-  EXPECT_LT(AutoVoxelSize(dense_, dense_), 0.25);
-}
-
-TEST_F(AutoOptionsTest, NormalsReachFromOneRingToTheNext) {
-  // Two walls in rows of points 0.02 m apart.
-  for (const double gap : {0.4, 0.8}) {
-    Points rows(3, 20000);
-    for (int i = 0; i < 20000; ++i) {
-      const double along = 0.02 * (i % 500);
-      const double up = gap * (i / 1000);
-      if (i % 1000 < 500) {
-        rows.col(i) << 10.0, along, up;
-      } else {
-        rows.col(i) << along, -5.0, up;
-      }
-    }
-    const double normal_radius = 3.0 * AutoVoxelSize(rows, rows);
-    EXPECT_GT(normal_radius, gap) << gap;
-    EXPECT_LT(normal_radius, 2.0 * gap) << gap;
-    EXPECT_EQ(AutoVoxelSize(dense_, rows), AutoVoxelSize(rows, dense_));
-    EXPECT_GT(3.0 * AutoVoxelSize(dense_, rows), gap);
-  }
-}
-
-TEST_F(AutoOptionsTest, ALineStaysAsItIs) {
-  Points line = Points::Zero(3, 2000);
-  line.row(0).setLinSpaced(0.0, 20.0);
-  const double size = AutoVoxelSize(line, line);
-  EXPECT_LT(size, 0.02);
-}
-
-TEST_F(AutoOptionsTest, HaveTwoDigits) {
-  const double size = AutoVoxelSize(dense_, dense_);
-  const double thousandths = 1000.0 * size;  // Sizes here are 0.10-0.99 m.
-  ASSERT_GT(size, 0.1);
-  EXPECT_NEAR(thousandths / 10.0, std::round(thousandths / 10.0), 1e-9);
-}
-
 TEST_F(AutoOptionsTest, WithoutPointsAreKitti) {
-  const Points none(3, 0);
+  const PointCloud none = CloudOf(Points(3, 0));
+  const PointCloud dense = CloudOf(dense_);
   const double kitti = MakePreset("kitti")->front_end.voxel_size;
-  EXPECT_EQ(AutoVoxelSize(none, dense_), kitti);
-  EXPECT_EQ(AutoVoxelSize(dense_, none), kitti);
-}
-
-// The squares of such distances are zero: every point would be a neighbor of
-// every other, and the search would be quadratic.
-TEST_F(AutoOptionsTest, DistancesThatCannotBeSquaredAreNotUsed) {
-  const Points tiny = 1e-300 * dense_;
-  EXPECT_EQ(AutoVoxelSize(tiny, dense_), AutoVoxelSize(Points(3, 0), dense_));
+  EXPECT_EQ(MakeAutoOptions(none, dense).front_end.voxel_size, kitti);
+  EXPECT_EQ(MakeAutoOptions(dense, none).front_end.voxel_size, kitti);
 }
 
 TEST_F(AutoOptionsTest, OnePointOrCopiesOfItGiveValidOptions) {
