@@ -73,7 +73,7 @@ RegistrationOptions MakeAutoOptions(const PointCloud& source,
 RegistrationOptions MakeAutoOptions(double voxel_size) {
   RegistrationOptions options = InProportionTo(voxel_size);
   options.search.scale_factors = {1.0, 2.0, 3.5};
-  options.search.max_rung = 2;  // A larger scale finds more than a third rung.
+  options.search.max_rung = 1;  // A larger scale finds more than rung 2.
   options.ins.gravity = Gravity::kScans;
   options.refinement.method = RefinementMethod::kVgicp;
   return options;

@@ -54,8 +54,11 @@ struct System {
     const double s = error.dot(force);
     const double weight = kernel.Weight(s);
     const Eigen::Matrix3d W = weight * information;
-    const Eigen::Matrix3d turned = Skew(moved) * W;
-    hessian.topLeftCorner<3, 3>() -= turned * Skew(moved);
+    Eigen::Matrix3d turned;  // [moved]x W
+    for (int k = 0; k < 3; ++k) turned.col(k) = moved.cross(W.col(k));
+    for (int k = 0; k < 3; ++k) {
+      hessian.block<1, 3>(k, 0) += moved.cross(turned.row(k).transpose());
+    }
     hessian.topRightCorner<3, 3>() += turned;
     hessian.bottomRightCorner<3, 3>() += W;
     gradient.head<3>() -= weight * moved.cross(force);

@@ -23,7 +23,7 @@ constexpr double kMaxCells = 1 << kBitsPerAxis;
 
 struct Voxel {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // Mean of C.
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // (I + mean C)^-1.
   double count = 0.0;
 };
 
@@ -45,9 +45,12 @@ class VoxelMap {
       Voxel& voxel = voxels_[number];
       voxel.count += 1.0;
       voxel.mean += (point - voxel.mean) / voxel.count;
-      voxel.covariance += SurfaceCovariance(cloud.normals.col(j), epsilon);
+      voxel.inverse += SurfaceCovariance(cloud.normals.col(j), epsilon);
     }
-    for (Voxel& voxel : voxels_) voxel.covariance /= voxel.count;
+    for (Voxel& voxel : voxels_) {
+      const Eigen::Matrix3d covariance = voxel.inverse / voxel.count;
+      voxel.inverse = (Eigen::Matrix3d::Identity() + covariance).inverse();
+    }
   }
 
   const Voxel* Find(const Eigen::Vector3d& x) const {
@@ -98,11 +101,16 @@ class VgicpTerms final : public AlignmentTerms {
     if (voxel == nullptr || (voxel->mean - moved).norm() > max_distance_) {
       return false;
     }
-    const Eigen::Vector3d normal = pose.rotation * source_.normals.col(i);
     term->target = voxel->mean;
+    // B = I - k n n^T changes I + mean C by a matrix of rank one, so the inverse
+    // follows by the formula of Sherman and Morrison.
+    const double k = 1.0 - epsilon_;
+    const Eigen::Vector3d normal = pose.rotation * source_.normals.col(i);
+    const Eigen::Vector3d turned = voxel->inverse * normal;
+    const double scale = k / (1.0 - k * normal.dot(turned));
     term->information =
-        voxel->count *
-        (voxel->covariance + SurfaceCovariance(normal, epsilon_)).inverse();
+        voxel->count * voxel->inverse +
+        (voxel->count * scale * turned) * turned.transpose();
     return true;
   }
 
