@@ -120,22 +120,25 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
   return matches;
 }
 
-std::vector<Match> MatchInRounds(const Fpfh& source,
+std::vector<Match> MatchInRounds(const std::vector<Match>& matches,
+                                 const Fpfh& source,
                                  const Fpfh& target,
                                  int num_rounds,
                                  int num_threads) {
   Fpfh open_source = source;
   Fpfh open_target = target;
   std::vector<Match> all;
-  for (int round = 0; round < num_rounds; ++round) {
-    const std::vector<Match> matches =
-        MatchMutualNearest(open_source, open_target, num_threads);
-    for (const Match& match : matches) {
+  const auto add = [&](const std::vector<Match>& added) {
+    for (const Match& match : added) {
       // Descriptors that are zero have no match.
       open_source.col(match.source).setZero();
       open_target.col(match.target).setZero();
     }
-    all.insert(all.end(), matches.begin(), matches.end());
+    all.insert(all.end(), added.begin(), added.end());
+  };
+  add(matches);
+  for (int round = 0; round < num_rounds; ++round) {
+    add(MatchMutualNearest(open_source, open_target, num_threads));
   }
   return all;
 }

@@ -46,11 +46,12 @@ std::vector<Match> MatchMutualNearest(const Fpfh& source,
                                       int num_threads,
                                       SimdLevel level);
 
-// The matches of `num_rounds` rounds, ascending by round. Each round matches
-// the descriptors that have no match yet. The second and third rounds are less
-// reliable than the first, but double the number of correct matches where few
-// are correct.
-std::vector<Match> MatchInRounds(const Fpfh& source,
+// The given matches, followed by those of `num_rounds` more rounds. Each round
+// matches the descriptors that have no match yet. The second and third rounds
+// are less reliable than the first, MatchMutualNearest(), but double the number
+// of correct matches where few are correct.
+std::vector<Match> MatchInRounds(const std::vector<Match>& matches,
+                                 const Fpfh& source,
                                  const Fpfh& target,
                                  int num_rounds,
                                  int num_threads);

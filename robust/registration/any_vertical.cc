@@ -68,7 +68,10 @@ class AnyVertical {
         up(frames->level_from_target).dot(up(given.level_from_target)) >
             kSameVertical;
     if (is_given && prepared.options.ins.gravity != Gravity::kNone) return;
-    Try(*frames, leveled_by, prepared);
+    Prepared later = prepared;
+    later.options.search.is_first_try =
+        prepared.options.search.is_first_try && !best_;
+    Try(*frames, leveled_by, later);
   }
 
   void Try(const LevelFrames& frames,

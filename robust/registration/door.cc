@@ -44,35 +44,35 @@ void RegisterBehindDoor(const Matches& matches,
   const auto run = [&](const PointsRef& p,
                        const PointsRef& q,
                        const DescribedCloud* source,
-                       const DescribedCloud* target,
-                       const MatchedPoints* mutual_matches) {
-    const LevelProblem problem{
+                       const DescribedCloud* target) {
+    LevelProblem problem{
         source, target, bounds, options, prepared.solver, std::nullopt};
+    // The more poses are tried, the more evidence one of them needs.
+    if (source && !options.search.is_first_try &&
+        options.search.guided_matching) {
+      problem.search = SearchEvidence();
+      problem.search->is_first = false;
+    }
     RegisterLevel(p, q, problem, summary);
-    if (mutual_matches)
-      rung_matches = Climb(p, q, *mutual_matches, problem, summary);
+    if (clouds) {
+      rung_matches = Climb(p, q, clouds->mutual_matches, problem, summary);
+    }
   };
   if (frames.AreIdentity()) {
     run(matches.source,
         matches.target,
         clouds ? &clouds->source : nullptr,
-        clouds ? &clouds->target : nullptr,
-        clouds ? &clouds->mutual_matches : nullptr);
+        clouds ? &clouds->target : nullptr);
   } else {
     std::optional<DescribedCloud> source, target;
-    std::optional<MatchedPoints> mutual_matches;
     if (clouds) {
       source = Leveled(frames.level_from_source, clouds->source);
       target = Leveled(frames.level_from_target, clouds->target);
-      mutual_matches = MatchedPoints{
-          Leveled(frames.level_from_source, clouds->mutual_matches.source),
-          Leveled(frames.level_from_target, clouds->mutual_matches.target)};
     }
     run(Leveled(frames.level_from_source, matches.source),
         Leveled(frames.level_from_target, matches.target),
         source ? &*source : nullptr,
-        target ? &*target : nullptr,
-        mutual_matches ? &*mutual_matches : nullptr);
+        target ? &*target : nullptr);
     TakeBack(frames, summary);
     rung_matches.source =
         frames.level_from_source.transpose() * rung_matches.source;
@@ -94,7 +94,8 @@ RegistrationSummary RegisterIn(const LevelFrames& frames,
   summary.matched_target = clouds.matched_target;
   summary.num_source_voxels = clouds.source.points().cols();
   summary.num_target_voxels = clouds.target.points().cols();
-  summary.num_mutual_matches = clouds.num_mutual_matches;
+  summary.num_mutual_matches =
+      static_cast<Eigen::Index>(clouds.mutual_matches.size());
   summary.stage_times = clouds.stage_times;
   for (const StageTime& time : clouds.stage_times) {
     summary.total_seconds += time.seconds;

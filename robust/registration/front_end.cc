@@ -73,19 +73,6 @@ Fpfh DescribeAgain(const Points& points,
 }
 
 // The points of the matches, column by column.
-MatchedPoints PointsOf(const std::vector<Match>& matches,
-                       const Points& source,
-                       const Points& target) {
-  const auto num_matches = static_cast<Eigen::Index>(matches.size());
-  MatchedPoints points{Points(3, num_matches), Points(3, num_matches)};
-  for (Eigen::Index k = 0; k < num_matches; ++k) {
-    const Match& match = matches[static_cast<std::size_t>(k)];
-    points.source.col(k) = source.col(match.source);
-    points.target.col(k) = target.col(match.target);
-  }
-  return points;
-}
-
 // Runs body(0) and body(1) at the same time if there are two threads.
 template <typename Body>
 void ForBoth(int num_threads, const Body& body) {
@@ -185,16 +172,17 @@ MatchedPoints MatchAgain(const DescribedCloud& source,
                   target_voxels);
 }
 
-MatchedPoints MatchInRounds(const DescribedCloud& source,
-                            const DescribedCloud& target,
-                            int num_rounds,
-                            int num_threads) {
-  if (!source.descriptors || !target.descriptors) return {};
-  return PointsOf(
-      MatchInRounds(
-          *source.descriptors, *target.descriptors, num_rounds, num_threads),
-      source.points(),
-      target.points());
+MatchedPoints PointsOf(const std::vector<Match>& matches,
+                       const Points& source,
+                       const Points& target) {
+  const auto num_matches = static_cast<Eigen::Index>(matches.size());
+  MatchedPoints points{Points(3, num_matches), Points(3, num_matches)};
+  for (Eigen::Index k = 0; k < num_matches; ++k) {
+    const Match& match = matches[static_cast<std::size_t>(k)];
+    points.source.col(k) = source.col(match.source);
+    points.target.col(k) = target.col(match.target);
+  }
+  return points;
 }
 
 MatchedClouds MatchClouds(
@@ -232,8 +220,7 @@ MatchedClouds MatchClouds(
       MatchMutualNearest(fpfh[0], fpfh[1], num_threads);
   clouds.source.descriptors = std::make_shared<const Fpfh>(std::move(fpfh[0]));
   clouds.target.descriptors = std::make_shared<const Fpfh>(std::move(fpfh[1]));
-  clouds.num_mutual_matches = static_cast<Eigen::Index>(matches.size());
-  clouds.mutual_matches = PointsOf(matches, source_voxels, target_voxels);
+  clouds.mutual_matches = matches;
   if (options.tuple_test) {
     TupleTestOptions tuple = options.tuple;
     tuple.seed = seed;

@@ -54,12 +54,11 @@ struct MatchedClouds {
   DescribedCloud target;
 
   // The matches: voxel means in their own frames, column by column.
-  Points matched_source;                // [m]
-  Points matched_target;                // [m]
-  Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
+  Points matched_source;  // [m]
+  Points matched_target;  // [m]
 
-  // All mutual matches of the voxel means.
-  MatchedPoints mutual_matches;
+  // All mutual matches of the voxel means, before the tuple test.
+  std::vector<Match> mutual_matches;
 
   std::vector<StageTime> stage_times;
 };
@@ -72,12 +71,10 @@ MatchedPoints MatchAgain(const DescribedCloud& source,
                          const FrontEndOptions& options,
                          int num_threads);
 
-// The matches of `num_rounds` rounds by the clouds' own descriptors
-// (features/matching.h); none if a cloud has no descriptors.
-MatchedPoints MatchInRounds(const DescribedCloud& source,
-                            const DescribedCloud& target,
-                            int num_rounds,
-                            int num_threads);
+// The points of matches of the clouds, column by column.
+MatchedPoints PointsOf(const std::vector<Match>& matches,
+                       const Points& source,
+                       const Points& target);
 
 // `source_up` and `target_up` are the upward directions in the clouds, unit
 // vectors. Options must be valid.

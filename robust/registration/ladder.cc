@@ -21,7 +21,12 @@ constexpr double kVoxelFactor = 2.0;
 constexpr double kNormalFactor = 4.0 / 3.0;
 constexpr double kFpfhFactor = 7.0 / 3.0;
 
-constexpr int kNumRounds = 3;  // Of matching on rung 3.
+// Searched poses with a geometric score below this are wrong. Of 57 correct
+// ones on development pairs, the lowest had 0.21; of 19 pairs of unrelated
+// scans, three quarters were below 0.12.
+constexpr double kMinGeometry = 0.12;
+
+constexpr int kNumMoreRounds = 2;  // Of matching on rung 3.
 
 // A pose is as good as another one if its score is at least this share of the
 // other's: the score is that of a sample.
@@ -111,7 +116,8 @@ class CandidateSolver {
 };
 
 // The candidates that are tried, in this order: the first and, if the geometry
-// chooses, the one that fits it best if that is another.
+// chooses, the one that fits it best if that is another. If the geometry of
+// none is plausible, none is.
 std::vector<std::size_t> Tried(const std::vector<PoseCandidate>& candidates,
                                bool geometric_choice) {
   if (candidates.empty()) return {};
@@ -122,27 +128,34 @@ std::vector<std::size_t> Tried(const std::vector<PoseCandidate>& candidates,
                        [](const PoseCandidate& a, const PoseCandidate& b) {
                          return a.geometry.value() < b.geometry.value();
                        });
+  if (best->geometry.value() < kMinGeometry) return {};
   if (best == candidates.begin()) return {0};
   return {0, static_cast<std::size_t>(best - candidates.begin())};
 }
 
 // The matches of a rung.
 MatchedPoints MatchesOf(int rung,
-                        const MatchedPoints& mutual_matches,
+                        const std::vector<Match>& mutual_matches,
                         const LevelProblem& problem) {
-  if (rung == 1) return mutual_matches;
+  const DescribedCloud& source = *problem.source;
+  const DescribedCloud& target = *problem.target;
+  if (rung == 1) {
+    return PointsOf(mutual_matches, source.points(), target.points());
+  }
   if (rung == 3) {
-    return MatchInRounds(*problem.source,
-                         *problem.target,
-                         kNumRounds,
-                         problem.options.num_threads);
+    return PointsOf(MatchInRounds(mutual_matches,
+                                  *source.descriptors,
+                                  *target.descriptors,
+                                  kNumMoreRounds,
+                                  problem.options.num_threads),
+                    source.points(),
+                    target.points());
   }
   FrontEndOptions front_end = problem.options.front_end;
   front_end.voxel_size *= kVoxelFactor;
   front_end.normal_radius *= kNormalFactor;
   front_end.fpfh_radius *= kFpfhFactor;
-  return MatchAgain(
-      *problem.source, *problem.target, front_end, problem.options.num_threads);
+  return MatchAgain(source, target, front_end, problem.options.num_threads);
 }
 
 // Stages of all rungs are summed by name.
@@ -163,7 +176,7 @@ double SumOf(const std::vector<StageTime>& times) {
 
 class Ladder {
  public:
-  Ladder(const MatchedPoints& mutual_matches,
+  Ladder(const std::vector<Match>& mutual_matches,
          const LevelProblem& problem,
          RegistrationSummary* summary)
       : mutual_matches_(mutual_matches),
@@ -286,7 +299,7 @@ class Ladder {
     if (rung > 0 && options_.search.guided_matching) {
       search.emplace();
       search->segment_ratio = Search().SegmentRatio(candidate);
-      search->is_first = rung == 1 && options_.search.is_first_scale;
+      search->is_first = rung == 1 && options_.search.is_first_try;
     }
     const PoseSolver solver =
         CandidateSolver(Search(),
@@ -318,7 +331,7 @@ class Ladder {
     summary_ = std::move(attempt);
   }
 
-  const MatchedPoints& mutual_matches_;
+  const std::vector<Match>& mutual_matches_;
   const LevelProblem& problem_;
   const RegistrationOptions& options_;
   RegistrationSummary& summary_;
@@ -329,7 +342,7 @@ class Ladder {
 
 MatchedPoints Climb(const PointsRef& matched_source,
                     const PointsRef& matched_target,
-                    const MatchedPoints& mutual_matches,
+                    const std::vector<Match>& mutual_matches,
                     const LevelProblem& problem,
                     RegistrationSummary* summary) {
   if (problem.options.search.max_rung == 0) return {};

@@ -29,6 +29,9 @@
 #ifndef QUATRO_ROBUST_REGISTRATION_LADDER_H_
 #define QUATRO_ROBUST_REGISTRATION_LADDER_H_
 
+#include <vector>
+
+#include "features/matching.h"
 #include "robust/registration/front_end.h"
 #include "robust/registration/level_registration.h"
 #include "robust/registration/summary.h"
@@ -37,12 +40,11 @@ namespace quatro {
 
 // `summary` is that of rung 0 on `matched_source` and `matched_target`, and is
 // replaced if a better pose is found. The problem must have clouds.
-// `mutual_matches` are all mutual matches of the front end, in the frames of
-// the problem. Returns the matches of the pose if it is from a higher rung,
-// else none.
+// `mutual_matches` are all mutual matches of the front end. Returns the matches
+// of the pose if it is from a higher rung, else none.
 MatchedPoints Climb(const PointsRef& matched_source,
                     const PointsRef& matched_target,
-                    const MatchedPoints& mutual_matches,
+                    const std::vector<Match>& mutual_matches,
                     const LevelProblem& problem,
                     RegistrationSummary* summary);
 

@@ -54,8 +54,9 @@ struct PoseSearchOptions {
   // have one scale.
   std::vector<double> scale_factors = {1.0};
 
-  // Whether the lengths are those of the first factor. Set by Register().
-  bool is_first_scale = true;
+  // Whether no other lengths and no other verticals were tried before. Set by
+  // Register() and RegisterByAnyVertical().
+  bool is_first_try = true;
 
   // Whether a candidate may turn a scan upside down, because the verticals were
   // found and not stated. Set by RegisterByAnyVertical().

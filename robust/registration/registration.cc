@@ -33,7 +33,7 @@ RegistrationSummary Register(const PointCloud& source,
   double seconds = 0.0;
   for (const double factor : options.search.scale_factors) {
     RegistrationOptions scaled = ScaledBy(factor, options);
-    scaled.search.is_first_scale = !best;
+    scaled.search.is_first_try = !best;
     scaled.search.time_limit_seconds =
         std::max(0.0, options.search.time_limit_seconds - seconds);
     RegistrationSummary summary =

@@ -69,7 +69,8 @@ struct FreeSpace {
   }
 };
 
-// Evidence for a pose that was searched for.
+// Evidence for a pose that was searched for, or estimated after another one was
+// not registered.
 struct SearchEvidence {
   Eigen::Index num_guided_matches = 0;
   Eigen::Index num_guided_inliers = 0;
@@ -78,8 +79,9 @@ struct SearchEvidence {
   // (robust/registration/segment_consensus.h) [nat]; 0 without segments.
   double segment_ratio = 0.0;
 
-  // Whether the pose is from the first search, at rung 1 and at the first
-  // scale. The more searches, the more hypotheses were tried.
+  // Whether the pose is from the first search, at rung 1, at the first scale
+  // and with the first vertical. The more searches, the more hypotheses were
+  // tried.
   bool is_first = true;
 };
 

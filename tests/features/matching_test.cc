@@ -304,7 +304,10 @@ TEST(MatchInRounds, MatchesWhatIsLeft) {
   Fpfh left_target = target;
   std::vector<Match> expected;
   for (int num_rounds = 0; num_rounds <= 4; ++num_rounds) {
-    EXPECT_EQ(MatchInRounds(source, target, num_rounds, 1), expected)
+    EXPECT_EQ(MatchInRounds({}, source, target, num_rounds, 1), expected)
+        << num_rounds;
+    EXPECT_EQ(MatchInRounds(expected, source, target, 4 - num_rounds, 1),
+              MatchInRounds({}, source, target, 4, 1))
         << num_rounds;
     for (const Match& match : MatchMutualNearest(left_source, left_target, 1)) {
       expected.push_back(match);
@@ -313,7 +316,7 @@ TEST(MatchInRounds, MatchesWhatIsLeft) {
     }
   }
   std::set<std::int32_t> sources, targets;
-  for (const Match& match : MatchInRounds(source, target, 4, 1)) {
+  for (const Match& match : MatchInRounds({}, source, target, 4, 1)) {
     EXPECT_TRUE(sources.insert(match.source).second);
     EXPECT_TRUE(targets.insert(match.target).second);
   }

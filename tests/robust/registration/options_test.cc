@@ -310,7 +310,7 @@ std::string ToText(const RegistrationSummary& summary) {
 std::string ToText(const MatchedClouds& clouds) {
   std::ostringstream out;
   out.precision(17);
-  out << clouds.error << clouds.num_mutual_matches << "\n"
+  out << clouds.error << clouds.mutual_matches.size() << "\n"
       << clouds.matched_source << "\n"
       << clouds.matched_target;
   return out.str();
