@@ -48,7 +48,7 @@ COUNTS = ("source_voxels", "target_voxels", "matches", "consistent", "rotation_i
 SUCCESS = {"success_2m_10deg": (2.0, 10.0), "success_0.6m_5deg": (0.6, 5.0),
            "success_0.3m_1deg": (0.3, 1.0)}
 RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "yaw_error_deg",
-                  "translation_error_m", *SUCCESS, "wrong_but_registered", *COUNTS, "total_ms",
+                  "translation_error_m", *SUCCESS, "within_tolerance", "wrong_but_registered", *COUNTS, "total_ms",
                   "probability", "features", "stages_ms", "peak_mb")
 
 DEFAULT_PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/bin/quatro_register"
@@ -157,7 +157,7 @@ def measure(pair, report):
     if pair.pose is None:
         result["wrong_but_registered"] = int(registered) if pair.is_known else ""
         return result
-    result.update(dict.fromkeys(SUCCESS, 0))
+    result.update(dict.fromkeys((*SUCCESS, "within_tolerance"), 0))
     matrix = report["target_from_source"]
     if matrix is not None:
         true_rotation, true_translation = pair.pose
@@ -168,7 +168,11 @@ def measure(pair, report):
                       translation_error_m=f"{translation_error:.4f}")
         for name, (metres, degrees) in SUCCESS.items():
             result[name] = int(translation_error <= metres and rotation_error <= degrees)
-    result["wrong_but_registered"] = int(registered and not result["success_2m_10deg"])
+        # What the verdict's probability is of: it follows the scale of the scans.
+        tolerance = report.get("tolerance", {"translation_m": 2.0, "rotation_deg": 10.0})
+        result["within_tolerance"] = int(translation_error <= tolerance["translation_m"] and
+                                         rotation_error <= tolerance["rotation_deg"])
+    result["wrong_but_registered"] = int(registered and not result["within_tolerance"])
     return result
 
 
@@ -315,7 +319,7 @@ def format_summary(results):
     return "".join(
         "  ".join([row[0].ljust(widths[0])] +
                   [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]) + "\n"
-        for row in rows) + "false registrations: registered, but not within 2 m and 10 deg\n"
+        for row in rows) + "false registrations: registered, but not within the tolerance of the verdict\n"
 
 
 def check_program(path):

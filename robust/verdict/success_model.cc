@@ -18,9 +18,9 @@ constexpr double kMatchesWeights[] = {3.577, 3.931};
 constexpr double kCloudsIntercept = -8.557;
 constexpr double kCloudsWeights[] = {
     0.0, 0.984, 2.046, 3.001, 1.926, 2.576, 1.616};
-constexpr double kSearchIntercept = -14.281;
+constexpr double kSearchIntercept = -12.407;
 constexpr double kSearchWeights[] = {
-    0.0, 0.0, 0.893, 4.382, 2.032, 4.444, 1.026, 3.258, 1.135, 2.219};
+    0.777, 0.244, 0.066, 4.704, 2.198, 1.717, 2.749, 2.350, 1.671, 2.047};
 
 // The upper ends of ramps.
 constexpr double kLargeOverlap = 0.3;

@@ -43,10 +43,12 @@ if source.name == "c.bin" and (source.parent / "stop").exists():
 while (source.parent / "wait").exists() and not (source.parent / "go").exists():
     time.sleep(0.01)
 registered = source.name.startswith("a")
-shift = 5.0 if flags.get("method") == "half" else 0.0
+shift = 5.0 if flags.get("method") in ("half", "coarse") else 0.0
+tolerance = 6.0 if flags.get("method") == "coarse" else 2.0
 print(json.dumps({"status": "registered" if registered else "ambiguous",
     "probability": 0.95 if registered else 0.1,
     "target_from_source": [[1, 0, 0, shift], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+    "tolerance": {"translation_m": tolerance, "rotation_deg": 10.0},
     "evidence": {"features": {"surprise": 1.0 if registered else 0.0, "margin": 0.5}},
     "timings_ms": {"voxels": 2.0, "matching": 3.0, "clique": 1.0, "total": 6.0}}))
 sys.exit(0 if registered else 1)
@@ -94,6 +96,15 @@ class PairScriptsTest(unittest.TestCase):
         self.assertEqual((c["success_2m_10deg"], c["wrong_but_registered"]), ("", "0"))
         self.assertGreater(float(a["peak_mb"]), 1.0)
         self.assertEqual(a["stages_ms"], "voxels=2.0;matching=3.0;clique=1.0")
+
+    def test_a_false_registration_is_outside_of_the_tolerance_of_the_verdict(self):
+        for method, expected in (("half", ("0", "0", "1")), ("coarse", ("0", "1", "0"))):
+            self.assertEqual(self.run_pairs(f"--method={method}").returncode, 0)
+            with open(self.folder / "out.csv", newline="", encoding="utf-8") as file:
+                row = next(csv.DictReader(file))
+            self.assertEqual((row["success_2m_10deg"], row["within_tolerance"],
+                              row["wrong_but_registered"]), expected, method)
+            (self.folder / "out.csv").unlink()
 
     def test_without_poses_nothing_is_wrong(self):
         self.pairs = self.write("pairs.csv", "\ufefftarget,source\nt.bin,a.bin\n")

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
@@ -268,6 +269,59 @@ TEST_F(TiltedPair, IsAlignedBeforeItsPoseCounts) {
   EXPECT_TRUE(summary.verdict.IsRegistered()) << summary.verdict.reason;
   EXPECT_EQ(summary.rung, 0);
   EXPECT_EQ(summary.matched_source, single_.matched_source);
+}
+
+// A few inliers give a tilt, but not a good one.
+TEST(Ladder, APoseOfFewInliersIsAlignedWithTheClouds) {
+  PairSetOptions pairs;
+  pairs.max_distance = 15.0;
+  std::string error;
+  const auto pair = SimulateSetPair(pairs, 6, &error);
+  ASSERT_TRUE(pair) << error;
+  RegistrationOptions options;
+  options.front_end.tuple.num_triples_per_match = 3;  // Few pass.
+  const RegistrationSummary summary =
+      Register(pair->source, pair->target, options);
+  options.method = "quatro_single";
+  const RegistrationSummary single =
+      Register(pair->source, pair->target, options);
+  ASSERT_TRUE(single.verdict.IsRegistered());
+  EXPECT_EQ(single.solution.model, PoseModel::kRigid);
+  EXPECT_LT(single.solution.num_translation_inliers, 25);
+  const auto error_of = [&](const RegistrationSummary& of) {
+    return AngleBetween(of.target_from_source()->rotation,
+                        pair->true_target_from_source->rotation);
+  };
+  EXPECT_GT(error_of(single), 0.005);
+  EXPECT_LT(error_of(summary), 0.002);
+  EXPECT_EQ(summary.rung, 0);
+}
+
+// Each try after the first needs the evidence of a searched pose.
+TEST(Register, OnlyTheFirstTryHasTheVerdictOfASinglePose) {
+  PairSetOptions set;
+  set.no_overlap = true;
+  set.sensor = "vlp16";
+  std::set<std::string> tries;
+  for (int index = 0; index < 2; ++index) {
+    std::string error;
+    const auto pair = SimulateSetPair(set, index, &error);
+    ASSERT_TRUE(pair) << error;
+    const RegistrationSummary summary =
+        Register(pair->source,
+                 pair->target,
+                 MakeAutoOptions(pair->source, pair->target));
+    ASSERT_TRUE(summary.target_from_source());
+    const bool is_first = summary.rung == 0 && summary.leveled_by == "given" &&
+                          summary.scale_factor == 1.0;
+    const bool is_searched = std::any_of(
+        summary.verdict.features.begin(),
+        summary.verdict.features.end(),
+        [](const Feature& feature) { return feature.name == "guided"; });
+    EXPECT_NE(is_searched, is_first) << summary.verdict.reason;
+    tries.insert(is_first ? "first" : "other");
+  }
+  EXPECT_TRUE(tries.count("other"));
 }
 
 // The tilt of an INS is not estimated again.
