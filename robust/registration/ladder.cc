@@ -24,9 +24,9 @@ constexpr double kFpfhFactor = 7.0 / 3.0;
 // Searched poses with a geometric score below this are wrong. Of 57 correct
 // ones on development pairs, the lowest had 0.21; of 19 pairs of unrelated
 // scans, three quarters were below 0.12.
-constexpr double kMinGeometry = 0.12;
+constexpr double kMinGeometry = 0.15;
 
-constexpr int kNumMoreRounds = 2;  // Of matching on rung 3.
+constexpr int kNumMoreRounds = 1;  // Of matching on rung 3.
 
 // A pose is as good as another one if its score is at least this share of the
 // other's: the score is that of a sample.

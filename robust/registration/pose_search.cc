@@ -38,6 +38,10 @@ constexpr double kMinInclination = 0.05;
 constexpr double kMaxShiftIntoBounds = 4.0;  // [noise bounds]
 constexpr double kMaxTurnIntoBounds = 0.1;   // [rad]
 
+// Candidates whose geometric score after the coarse stage is below this are
+// wrong, and not aligned any further.
+constexpr double kMinCoarseScore = 0.05;
+
 constexpr int kNumSegmentPoses = 32;
 
 // VG-ICP cannot number the voxels of a wider cloud [voxel sizes].
@@ -148,14 +152,14 @@ struct PoseSearch::Aligner {
     return options;
   }
 
-  Rigid3 Align(const Rigid3& from) const {
-    Rigid3 pose = from;
-    for (const auto& [stage, terms] : {std::pair{&coarse, coarse_terms.get()},
-                                       std::pair{&fine, fine_terms.get()}}) {
-      pose = AlignLocally(pose, stage->alignment, terms)
-                 .target_from_source.value_or(pose);
-    }
-    return pose;
+  Rigid3 AlignCoarsely(const Rigid3& pose) const {
+    return AlignLocally(pose, coarse.alignment, coarse_terms.get())
+        .target_from_source.value_or(pose);
+  }
+
+  Rigid3 AlignFinely(const Rigid3& pose) const {
+    return AlignLocally(pose, fine.alignment, fine_terms.get())
+        .target_from_source.value_or(pose);
   }
 
   DescribedCloud sample;
@@ -243,7 +247,8 @@ double PoseSearch::SegmentRatio(const Rigid3& target_from_source) const {
 }
 
 Rigid3 PoseSearch::Align(const Rigid3& target_from_source) const {
-  return aligner_ ? aligner_->Align(target_from_source) : target_from_source;
+  if (!aligner_) return target_from_source;
+  return aligner_->AlignFinely(aligner_->AlignCoarsely(target_from_source));
 }
 
 ConsensusSearchOptions PoseSearch::ConsensusOptions(const Level& level) const {
@@ -363,8 +368,11 @@ std::vector<PoseCandidate> PoseSearch::FindAmong(
   candidates.resize(std::min(candidates.size(),
                              static_cast<std::size_t>(options_.num_aligned)));
   for_all([&](PoseCandidate* candidate) {
-    candidate->target_from_source =
-        aligner_->Align(candidate->target_from_source);
+    Rigid3* const pose = &candidate->target_from_source;
+    *pose = aligner_->AlignCoarsely(*pose);
+    score(candidate);
+    if (candidate->geometry.value() < kMinCoarseScore) return;
+    *pose = aligner_->AlignFinely(*pose);
     score(candidate);
   });
   sort();
