@@ -30,7 +30,7 @@ ROOMS = {
     'python': ['features', 'solvers', 'robust'],
 }
 MADE_BY_CMAKE = {'experiments/runner/commit_text.h'}
-MAX_SOURCES_IN_ROOM = 25  # A header and its source count as one.
+MAX_SOURCES_IN_ROOM = 26  # A header and its source count as one.
 
 
 def room_of(path):
