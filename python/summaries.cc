@@ -288,6 +288,16 @@ void BindSearch(py::class_<Registration>* registration) {
           [](const Registration& r) { return r.summary.num_target_voxels; },
           "int: points of the target after sampling.")
       .def_property_readonly(
+          "error_radius",
+          [](const Registration& r) -> py::object {
+            const auto& radius = r.summary.error_radius;
+            if (!radius) return py::none();
+            return py::make_tuple(radius->translation,
+                                  radius->rotation * 180.0 / M_PI);
+          },
+          "tuple or None: meters and degrees that a registered pose is off by "
+          "at most, 19 times in 20.")
+      .def_property_readonly(
           "num_mutual_matches",
           [](const Registration& r) { return r.summary.num_mutual_matches; },
           "int: matches before the tuple test.")

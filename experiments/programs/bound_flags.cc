@@ -74,15 +74,19 @@ std::optional<Rigid3> PoseOfNumbers(const std::string& where,
   return pose;
 }
 
-std::optional<Rigid3> ParseGuess(const std::string& guess, std::string* error) {
+}  // namespace
+
+std::optional<Rigid3> ParsePose(const std::string& flag,
+                                const std::string& value,
+                                std::string* error) {
   std::error_code ignored;
-  const std::string where = "--guess=" + guess;
-  std::string text = guess;
-  if (guess.find(',') == std::string::npos ||
-      std::filesystem::exists(guess, ignored)) {
-    const auto bytes = ReadWholeFile(guess, error);
+  const std::string where = "--" + flag + "=" + value;
+  std::string text = value;
+  if (value.find(',') == std::string::npos ||
+      std::filesystem::exists(value, ignored)) {
+    const auto bytes = ReadWholeFile(value, error);
     if (!bytes) {
-      *error = "--guess: " + *error;
+      *error = "--" + flag + ": " + *error;
       return std::nullopt;
     }
     text = *bytes;
@@ -116,8 +120,6 @@ std::optional<Rigid3> ParseGuess(const std::string& guess, std::string* error) {
   }
   return PoseOfNumbers(where, numbers, error);
 }
-
-}  // namespace
 
 std::optional<PoseBounds> ParseBoundFlags(const BoundFlags& flags,
                                           bool is_local,
@@ -154,7 +156,7 @@ std::optional<PoseBounds> ParseBoundFlags(const BoundFlags& flags,
         "--max_translation [m] or --max_yaw_deg";
     return std::nullopt;
   }
-  const auto guess = ParseGuess(flags.guess, error);
+  const auto guess = ParsePose("guess", flags.guess, error);
   if (!guess) return std::nullopt;
   bounds.guess = *guess;
   return bounds;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "features/base/rigid3.h"
 #include "robust/estimators/pose_bounds.h"
 
 namespace quatro {
@@ -22,6 +23,12 @@ struct BoundFlags {
   double max_yaw_deg = 180.0;
   double max_tilt_deg = 5.0;
 };
+
+// The pose in the value of a flag: as BoundFlags::guess, or the JSON of
+// quatro_register. Returns nullopt and names the flag in *error if it is none.
+std::optional<Rigid3> ParsePose(const std::string& flag,
+                                const std::string& value,
+                                std::string* error);
 
 // Returns nullopt if a flag is invalid, with the flag and the reason in *error.
 // A guess without bounds is invalid unless the method starts from the guess

@@ -18,7 +18,7 @@
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/methods.h"
 #include "experiments/programs/program.h"
-#include "experiments/programs/progress_line.h"
+#include "experiments/base/progress_line.h"
 #include "experiments/protocols/gnc_film.h"
 #include "experiments/protocols/loop_pairs.h"
 #include "experiments/protocols/odometry_runs.h"

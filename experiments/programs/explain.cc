@@ -378,6 +378,12 @@ std::string Explain(const Json& report) {
                Number(tolerance["rotation_deg"]) +
                " deg of the true pose with a probability of " +
                Number(probability, 4);
+    const Json radius = At(report, {"error_radius"});
+    if (radius.is_object() && report["status"] == "registered") {
+      verdict += ", and within " + Number(radius["translation_m"], 2) +
+                 " m and " + Number(radius["rotation_deg"], 2) +
+                 " deg, 19 times in 20";
+    }
   }
   text += Paragraph("verdict",
                     verdict + ": " + report["reason"].get<std::string>());

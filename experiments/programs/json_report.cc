@@ -218,6 +218,16 @@ Json Describe(const std::optional<SurfaceObservability>& hold) {
           {"weakest_level_share", hold->weakest_level_share}};
 }
 
+Json DescribeRadius(const std::optional<ErrorRadius>& radius) {
+  if (!radius) return nullptr;
+  return {{"translation_m", radius->translation},
+          {"rotation_deg", radius->rotation * 180.0 / M_PI},
+          {"confidence", 0.95},
+          {"deviation_m", radius->translation_deviation},
+          {"deviation_deg", radius->rotation_deviation * 180.0 / M_PI},
+          {"regime", RegimeName(radius->regime)}};
+}
+
 Json DescribeRefinement(const std::optional<RefinementSummary>& refinement) {
   if (!refinement) return nullptr;
   const AlignmentSummary& alignment = refinement->alignment;

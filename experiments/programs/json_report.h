@@ -41,6 +41,10 @@ Json MakeReport(const std::string& method,
 // The observability of the horizontal position from the surfaces, or null.
 Json Describe(const std::optional<SurfaceObservability>& hold);
 
+// The error radius: translation_m, rotation_deg, confidence, the deviations
+// that it is a multiple of, and regime; or null.
+Json DescribeRadius(const std::optional<ErrorRadius>& radius);
+
 // The refinement: method, accepted, message, termination, iterations, inliers,
 // moved_m, moved_deg, cost, conditioning and the pose before the refinement.
 // Null if there was no refinement.

@@ -22,7 +22,7 @@
 #include "experiments/programs/bad_flag.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
-#include "experiments/programs/progress_line.h"
+#include "experiments/base/progress_line.h"
 
 DEFINE_string(input,
               "",

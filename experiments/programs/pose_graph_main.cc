@@ -15,7 +15,7 @@
 #include "experiments/pose_graphs/pose_graph_worlds.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
-#include "experiments/programs/progress_line.h"
+#include "experiments/base/progress_line.h"
 #include "experiments/protocols/synthetic_protocols.h"
 
 DEFINE_string(input, "", "g2o file; empty: a generated world");

@@ -20,7 +20,7 @@
 #include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
 #include "experiments/programs/bad_flag.h"
-#include "experiments/programs/progress_line.h"
+#include "experiments/base/progress_line.h"
 
 DECLARE_bool(help);
 DECLARE_bool(helpshort);

@@ -221,6 +221,7 @@ quatro::Json MakeReportOf(const Registered& registered) {
   }
   report["surface_observability"] =
       quatro::Describe(summary.surface_observability);
+  report["error_radius"] = quatro::DescribeRadius(summary.error_radius);
   report["refinement"] = quatro::DescribeRefinement(summary.refinement);
   report["parameters"] = {{"source", FLAGS_source},
                           {"target", FLAGS_target},

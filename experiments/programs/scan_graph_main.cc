@@ -17,7 +17,7 @@
 #include "experiments/pose_graphs/scan_graph.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
-#include "experiments/programs/progress_line.h"
+#include "experiments/base/progress_line.h"
 #include "features/io/cloud_io.h"
 
 DEFINE_string(scans,

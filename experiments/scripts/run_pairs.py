@@ -48,8 +48,9 @@ COUNTS = ("source_voxels", "target_voxels", "matches", "consistent", "rotation_i
 SUCCESS = {"success_2m_10deg": (2.0, 10.0), "success_0.6m_5deg": (0.6, 5.0),
            "success_0.3m_1deg": (0.3, 1.0)}
 RESULT_COLUMNS = ("set", "source", "target", "status", "rotation_error_deg", "yaw_error_deg",
-                  "translation_error_m", *SUCCESS, "within_tolerance", "wrong_but_registered", *COUNTS, "total_ms",
-                  "probability", "features", "stages_ms", "peak_mb")
+                  "translation_error_m", *SUCCESS, "within_tolerance", "wrong_but_registered",
+                  *COUNTS, "total_ms", "probability", "features", "stages_ms", "peak_mb", "regime",
+                  "deviation_m", "deviation_deg", "pose_error", "covariance")
 
 DEFAULT_PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/bin/quatro_register"
 
@@ -68,6 +69,18 @@ def angle_between_deg(a, b):
     c = [[sum(a[k][i] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
     sine = math.hypot(c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1])
     return math.degrees(math.atan2(sine, c[0][0] + c[1][1] + c[2][2] - 1.0))
+
+
+def pose_error(true_pose, matrix):
+    """The error (w, d) of the covariance: R_true = exp([w]x) R, t_true = t + d."""
+    true_rotation, true_translation = true_pose
+    c = [[sum(true_rotation[i][k] * matrix[j][k] for k in range(3)) for j in range(3)]
+         for i in range(3)]
+    skew = [c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1]]
+    sine = math.hypot(*skew)
+    angle = math.atan2(sine, c[0][0] + c[1][1] + c[2][2] - 1.0)
+    factor = angle / sine if sine > 0.0 else 0.5
+    return [factor * x for x in skew] + [t - row[3] for t, row in zip(true_translation, matrix)]
 
 
 def yaw_deg(rotation):
@@ -154,6 +167,11 @@ def measure(pair, report):
     result["probability"] = report.get("probability", "")
     features = report.get("evidence", {}).get("features", {})
     result["features"] = ";".join(f"{name}={value:.6g}" for name, value in features.items())
+    radius = report.get("error_radius") or {}
+    result.update({name: radius.get(name, "")
+                   for name in ("regime", "deviation_m", "deviation_deg")})
+    result["covariance"] = ";".join(f"{value:.9g}" for row in report.get("covariance") or []
+                                    for value in row)
     if pair.pose is None:
         result["wrong_but_registered"] = int(registered) if pair.is_known else ""
         return result
@@ -165,7 +183,8 @@ def measure(pair, report):
         yaw_error = abs(math.remainder(yaw_deg(matrix) - yaw_deg(true_rotation), 360.0))
         translation_error = math.dist([row[3] for row in matrix[:3]], true_translation)
         result.update(rotation_error_deg=f"{rotation_error:.4f}", yaw_error_deg=f"{yaw_error:.4f}",
-                      translation_error_m=f"{translation_error:.4f}")
+                      translation_error_m=f"{translation_error:.4f}",
+                      pose_error=";".join(f"{x:.9g}" for x in pose_error(pair.pose, matrix)))
         for name, (metres, degrees) in SUCCESS.items():
             result[name] = int(translation_error <= metres and rotation_error <= degrees)
         # What the verdict's probability is of: it follows the scale of the scans.

@@ -9,6 +9,8 @@
 #include "features/guided_matching.h"
 #include "robust/estimators/bound_solver.h"
 #include "robust/registration/refinement.h"
+#include "robust/verdict/contact_covariance.h"
+#include "robust/verdict/error_radius.h"
 #include "robust/verdict/evidence.h"
 #include "robust/verdict/summary_covariance.h"
 
@@ -46,6 +48,7 @@ class LevelRegistration {
       WeighGeometry();
     }
     Judge();
+    if (by_contacts_) ReplaceCovariance();
   }
 
  private:
@@ -154,6 +157,8 @@ class LevelRegistration {
       const auto& more = summary_.surface_observability->unobservable;
       unobservable.insert(unobservable.end(), more.begin(), more.end());
     }
+    by_contacts_ = MeasureContactCovariance(
+        *source_, *target_, pose, contacts, voxel_size);
     // Without enough structure to measure, there is no evidence for the pose.
     geometry_ = MeasureGeometricEvidence(*source_,
                                          *target_,
@@ -179,6 +184,25 @@ class LevelRegistration {
     FinishStage("verdict");
   }
 
+  // Replaces the covariance of the matches by that of the final pose, unless a
+  // direction is not observable. The verdict was about the matches.
+  void ReplaceCovariance() {
+    PoseCovariance& covariance = *summary_.solution.covariance;
+    if (!covariance.covariance || summary_.solution.scale != 1.0) return;
+    const Regime regime = FindRegime(*source_, *target_, search_.has_value());
+    const Rigid3& pose = *summary_.solution.target_from_source;
+    covariance.center = by_contacts_->center;
+    covariance.covariance_at_center =
+        CovarianceFactor(regime) * by_contacts_->covariance_at_center;
+    const Matrix6 at_origin =
+        CovarianceAtOrigin(by_contacts_->covariance_at_center,
+                           by_contacts_->center - pose.translation);
+    covariance.covariance = CovarianceFactor(regime) * at_origin;
+    summary_.error_radius = RadiusOf(
+        at_origin, options_.front_end.voxel_size, by_contacts_->extent, regime);
+    FinishStage("error radius");
+  }
+
   const PointsRef& matched_source_;
   const PointsRef& matched_target_;
   const DescribedCloud* source_;
@@ -190,6 +214,7 @@ class LevelRegistration {
   RegistrationSummary& summary_;
   Stopwatch stopwatch_;
   std::optional<GeometricEvidence> geometry_;
+  std::optional<ContactCovariance> by_contacts_;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 // The stages after matching, with z up:
 //
 //   matches -> estimator -> guided matches, of a searched pose -> covariance
-//           -> refinement -> geometric evidence -> verdict
+//           -> refinement -> geometric evidence -> verdict -> error radius
 
 #ifndef QUATRO_ROBUST_REGISTRATION_LEVEL_REGISTRATION_H_
 #define QUATRO_ROBUST_REGISTRATION_LEVEL_REGISTRATION_H_

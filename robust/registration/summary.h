@@ -17,6 +17,7 @@
 #include "robust/estimators/pose_summary.h"
 #include "robust/registration/pose_search.h"
 #include "robust/registration/refinement.h"
+#include "robust/verdict/error_radius.h"
 #include "robust/verdict/surface_observability.h"
 #include "robust/verdict/verdict.h"
 
@@ -39,14 +40,19 @@ struct RegistrationSummary {
   Eigen::Index num_target_voxels = 0;
   Eigen::Index num_mutual_matches = 0;  // Before the tuple test.
 
-  // The final pose, refined if a refinement was accepted. Its covariance is
-  // that of the pose before refinement.
+  // The final pose, refined if a refinement was accepted. With clouds, its
+  // covariance is from the surfaces in contact under this pose
+  // (robust/verdict/contact_covariance.h), otherwise from the inliers.
   PoseSummary solution;
   std::optional<RefinementSummary> refinement;  // If it was tried.
 
   // Which directions the surfaces constrain. Directions that they do not
   // constrain are also in solution.covariance.
   std::optional<SurfaceObservability> surface_observability;
+
+  // Errors that the pose keeps within, 19 times in 20. Only for clouds, and if
+  // there is a covariance.
+  std::optional<ErrorRadius> error_radius;
 
   // The rung that found the pose (robust/registration/ladder.h); 0 is the
   // estimator alone.

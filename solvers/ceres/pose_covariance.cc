@@ -334,15 +334,6 @@ void AddUncertain(const std::vector<DirectionInformation>& directions,
   }
 }
 
-// The derivative of (w, d) with respect to (w, u) in (3).
-Matrix6 FromCenter(const Eigen::Vector3d& arm) {
-  Matrix6 from_center = Matrix6::Identity();
-  for (int i = 0; i < 3; ++i) {
-    from_center.block<3, 1>(3, i) = arm.cross(Eigen::Vector3d::Unit(i));
-  }
-  return from_center;
-}
-
 // Appends the two axes of the tilt, which was assumed and not estimated.
 void AddAssumedTilt(const Eigen::Vector3d& center,
                     const PoseCovarianceOptions& options,
@@ -397,6 +388,17 @@ bool PoseCovarianceOptions::IsValid(std::string* error) const {
   }
   *error = problem.str();
   return error->empty();
+}
+
+Matrix6 CovarianceAtOrigin(const Matrix6& covariance_at_center,
+                           const Eigen::Vector3d& arm) {
+  Matrix6 from_center = Matrix6::Identity();
+  for (int i = 0; i < 3; ++i) {
+    from_center.block<3, 1>(3, i) = arm.cross(Eigen::Vector3d::Unit(i));
+  }
+  const Matrix6 covariance =
+      from_center * covariance_at_center * from_center.transpose();
+  return 0.5 * (covariance + covariance.transpose());
 }
 
 PoseCovariance ComputePoseCovariance(const PointsRef& source,
@@ -467,10 +469,8 @@ PoseCovariance ComputePoseCovariance(const PointsRef& source,
   }
   *estimated = (0.5 * (*estimated + estimated->transpose())).eval();
   AddUncertain(directions, *estimated, options, &result);
-  const Matrix6 from_center = FromCenter(matches.arm);
   result.covariance_at_center = *estimated;
-  const Matrix6 covariance = from_center * *estimated * from_center.transpose();
-  result.covariance = 0.5 * (covariance + covariance.transpose());
+  result.covariance = CovarianceAtOrigin(*estimated, matches.arm);
   result.message = "computed";
   return result;
 }

@@ -31,6 +31,7 @@
 // the matches are neighbors in a scan or the sensor is biased. It also ignores
 // that some estimators do not minimize (1); see `offset`. So on real pairs the
 // covariance is too small: the squared normalized error is tens instead of 6.
+// If there are clouds, robust/verdict/contact_covariance.h replaces it.
 
 #ifndef QUATRO_SOLVERS_CERES_POSE_COVARIANCE_H_
 #define QUATRO_SOLVERS_CERES_POSE_COVARIANCE_H_
@@ -120,6 +121,11 @@ struct PoseCovariance {
 
   std::string message = "no covariance was computed";
 };
+
+// The covariance of (2) from that of (3). `arm` is c - t, from the image of the
+// source's origin to the center [m].
+Matrix6 CovarianceAtOrigin(const Matrix6& covariance_at_center,
+                           const Eigen::Vector3d& arm);
 
 // Column i of `source` is matched with column i of `target` [m]. All matches
 // are assumed to be inliers. If sizes differ, something is not finite, or an

@@ -85,6 +85,16 @@ TEST(JsonReportTest, CountsAreTheSolvers) {
                   {"inliers", 6}}));
 }
 
+TEST(JsonReportTest, ErrorRadiusIsInMetersAndDegrees) {
+  EXPECT_TRUE(DescribeRadius(std::nullopt).is_null());
+  const Json radius = DescribeRadius(
+      std::optional(ErrorRadius{0.12, M_PI / 180.0, Regime::kFar, 0.04, 0.01}));
+  EXPECT_EQ(radius["translation_m"], 0.12);
+  EXPECT_NEAR(radius["rotation_deg"].get<double>(), 1.0, 1e-12);
+  EXPECT_EQ(radius["confidence"], 0.95);
+  EXPECT_EQ(radius["regime"], "far");
+}
+
 TEST(JsonReportTest, TimesAreMillisecondsStageByStage) {
   const Json report = MakeReport("quatro",
                                  Verdict(),

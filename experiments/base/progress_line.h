@@ -5,8 +5,8 @@
 // log of a batch job, it is at most one line every ten seconds, and one at the
 // end.
 
-#ifndef QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
-#define QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
+#ifndef QUATRO_EXPERIMENTS_BASE_PROGRESS_LINE_H_
+#define QUATRO_EXPERIMENTS_BASE_PROGRESS_LINE_H_
 
 #include <cstdio>
 #include <functional>
@@ -44,4 +44,4 @@ class ProgressLine {
 
 }  // namespace quatro
 
-#endif  // QUATRO_EXPERIMENTS_PROGRAMS_PROGRESS_LINE_H_
+#endif  // QUATRO_EXPERIMENTS_BASE_PROGRESS_LINE_H_

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The quatro authors
 // SPDX-License-Identifier: MIT
 
-#include "experiments/programs/progress_line.h"
+#include "experiments/base/progress_line.h"
 
 #include <unistd.h>
 
