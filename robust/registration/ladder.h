@@ -6,7 +6,7 @@
 //   rung 1  poses searched in all mutual matches
 //           (robust/registration/pose_search.h)
 //   rung 2  as rung 1, with coarser voxels and descriptors of larger radii
-//   rung 3  as rung 1, with the matches of three rounds (features/matching.h)
+//   rung 3  as rung 1, with the matches of a second round (features/matching.h)
 //
 // Each rung takes its best candidate and, if that is not registered, the one
 // that fits the geometry best, and runs the estimator on the inliers of the
