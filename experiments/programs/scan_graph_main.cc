@@ -42,7 +42,7 @@ DEFINE_double(loop_sigma_deg,
               0.5,
               "Rotation noise of an inlier loop, per axis [deg]");
 DEFINE_double(inlier_probability,
-              0.999999,
+              0.99,
               "Share of inlier loops within the bound");
 DEFINE_uint64(seed, 0, "Random seed");
 DEFINE_int32(threads,
@@ -151,7 +151,7 @@ bool IsOdometryOf(const quatro::PoseGraph& graph,
                 "alone; loops are found by registration";
       return false;
     }
-    is_reached[edge.to] = true;
+    is_reached[std::max(edge.from, edge.to)] = true;
   }
   for (std::size_t i = 1; i < is_reached.size(); ++i) {
     if (is_reached[i]) continue;
