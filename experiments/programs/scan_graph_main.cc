@@ -42,7 +42,7 @@ DEFINE_double(loop_sigma_deg,
               0.5,
               "Rotation noise of an inlier loop, per axis [deg]");
 DEFINE_double(inlier_probability,
-              0.99,
+              0.999999,
               "Share of inlier loops within the bound");
 DEFINE_uint64(seed, 0, "Random seed");
 DEFINE_int32(threads,
