@@ -4,6 +4,7 @@
 #include "experiments/pose_graphs/g2o.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -132,10 +133,13 @@ class G2oReader {
         return std::nullopt;
       }
     }
+    const bool has_only_edges = graph_.ids.empty();
+    if (has_only_edges) AddPosesOfEdges();
     if (graph_.ids.empty()) {
       *error = "has no poses";
       return std::nullopt;
     }
+    SortPoses();
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       PoseEdge& edge = graph_.edges[i];
       if (!Find(ends_[i].from, ends_[i].line_number, &edge.from, error) ||
@@ -149,10 +153,34 @@ class G2oReader {
         return std::nullopt;
       }
     }
+    if (has_only_edges) ChainOdometry(&graph_);
     return std::move(graph_);
   }
 
  private:
+  void AddPosesOfEdges() {
+    for (const Reference& edge : ends_) {
+      for (const std::int64_t id : {edge.from, edge.to}) {
+        if (index_.emplace(id, graph_.ids.size()).second) {
+          graph_.ids.push_back(id);
+        }
+      }
+    }
+    graph_.world_from_pose.resize(graph_.ids.size());
+  }
+
+  // By id, so that the order of lines does not decide what is odometry.
+  void SortPoses() {
+    std::sort(graph_.ids.begin(), graph_.ids.end());
+    std::vector<Rigid3> poses;
+    for (std::size_t i = 0; i < graph_.ids.size(); ++i) {
+      std::size_t& index = index_.at(graph_.ids[i]);
+      poses.push_back(graph_.world_from_pose[index]);
+      index = i;
+    }
+    graph_.world_from_pose = std::move(poses);
+  }
+
   void ReadLine(std::string_view line, int line_number) {
     const std::string_view tag = TakeWord(&line);
     LineReader reader(line, &problem_);

@@ -36,13 +36,14 @@ struct PoseEdge {
   Rigid3 from_from_to;
   Eigen::MatrixXd information;  // 3 x 3 or 6 x 6; see information.h.
 
-  // Edges between consecutive poses are odometry; all others are loop closures.
-  bool IsOdometry() const { return to == from + 1; }
+  // Edges between consecutive poses, in either direction, are odometry; all
+  // others are loop closures.
+  bool IsOdometry() const { return to == from + 1 || from == to + 1; }
 };
 
 struct PoseGraph {
   int dimension = 3;              // 2 or 3.
-  std::vector<std::int64_t> ids;  // Pose ids, as in the file.
+  std::vector<std::int64_t> ids;  // Pose ids; ReadG2o() sorts them.
   std::vector<Rigid3> world_from_pose;
   std::vector<PoseEdge> edges;
   std::vector<std::size_t> fixed;  // Poses that are kept constant.
@@ -53,12 +54,14 @@ struct PoseGraph {
 inline void ChainOdometry(PoseGraph* graph) {
   std::vector<const PoseEdge*> last(graph->world_from_pose.size(), nullptr);
   for (const PoseEdge& edge : graph->edges) {
-    if (edge.IsOdometry()) last[edge.to] = &edge;
+    if (edge.IsOdometry()) last[std::max(edge.from, edge.to)] = &edge;
   }
   for (std::size_t i = 1; i < last.size(); ++i) {
     if (last[i] == nullptr) continue;
     graph->world_from_pose[i] =
-        graph->world_from_pose[i - 1] * last[i]->from_from_to;
+        graph->world_from_pose[i - 1] * (last[i]->to == i
+                                             ? last[i]->from_from_to
+                                             : Inverse(last[i]->from_from_to));
   }
 }
 

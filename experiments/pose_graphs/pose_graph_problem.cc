@@ -233,6 +233,10 @@ PoseGraphSummary SolvePoseGraph(const PoseGraphOptions& options,
     CeresGncOptions gnc;
     gnc.gnc = options.gnc;
     gnc.solver = options.solver;
+    gnc.plain_fit = options.solver;
+    gnc.plain_fit->max_num_iterations = options.max_plain_fit_steps;
+    gnc.loose = options.solver;
+    gnc.loose->function_tolerance = options.inner_tolerance;
     gnc.inlier_probability = options.inlier_probability;
     gnc.candidates.emplace();
     for (std::size_t i = 0; i < graph->edges.size(); ++i) {

@@ -42,7 +42,12 @@ struct PoseGraphOptions {
   double inlier_probability = 0.999999;
 
   GncOptions gnc;
-  ceres::Solver::Options solver;
+  ceres::Solver::Options solver;  // With kGnc, of the last solve.
+
+  // With kGnc: the plain fit takes at most this many steps, and the inner
+  // solves end at this function tolerance.
+  int max_plain_fit_steps = 5;
+  double inner_tolerance = 1e-3;
 
   PoseGraphOptions();
 };

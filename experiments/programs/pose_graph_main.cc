@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -26,7 +27,7 @@ DEFINE_string(loss,
               "gnc",
               "Robust loss of the loops: gnc, none, huber, cauchy, tukey");
 DEFINE_double(inlier_probability,
-              0.999999,
+              0.99,
               "Share of inlier loops within the bound");
 DEFINE_string(gnc_start,
               "plain_fit",
@@ -72,8 +73,10 @@ constexpr char kUsage[] =
     "  quatro_pose_graph --world=sphere --wrong_share=0.5\n"
     "  quatro_pose_graph --protocol=wrong_loops --output=wrong_loops.csv\n"
     "\n"
-    "Edges between consecutive poses are odometry and assumed to be inliers;\n"
-    "all others are loops. Prints a summary. Exits with 0; 1 if there is no\n"
+    "Edges between poses whose ids follow each other are odometry and assumed\n"
+    "to be inliers; all others are loops. Without poses in the file, they are\n"
+    "chained from the odometry. Prints a summary. Exits with 0; 1 if there is "
+    "no\n"
     "answer, or if odometry and accepted loops leave the graph disconnected\n"
     "(nothing is written then); 2 if a flag or a file is invalid.";
 
@@ -220,9 +223,14 @@ int Main(int argc, char** argv) {
       quatro::SummaryStream({FLAGS_output, FLAGS_world_output});
   const auto summary = quatro::SolvePoseGraph(*options, &graph);
   std::fprintf(out,
-               "%zu poses, %zu edges, %.3f s\n%s\n",
+               "%zu poses, %zu edges, of them %td odometry, %.3f s\n%s\n",
                graph.ids.size(),
                graph.edges.size(),
+               std::count_if(graph.edges.begin(),
+                             graph.edges.end(),
+                             [](const quatro::PoseEdge& edge) {
+                               return edge.IsOdometry();
+                             }),
                summary.seconds,
                summary.report.c_str());
   if (FLAGS_full_report) {

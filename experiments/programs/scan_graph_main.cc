@@ -151,7 +151,7 @@ bool IsOdometryOf(const quatro::PoseGraph& graph,
                 "alone; loops are found by registration";
       return false;
     }
-    is_reached[edge.to] = true;
+    is_reached[std::max(edge.from, edge.to)] = true;
   }
   for (std::size_t i = 1; i < is_reached.size(); ++i) {
     if (is_reached[i]) continue;

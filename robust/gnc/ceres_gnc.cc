@@ -48,6 +48,7 @@ class CeresSubproblem {
   const std::string& error() const { return error_; }
 
   Eigen::Index NumMeasurements() const { return squared_bounds_.size(); }
+  bool HasOthers() const { return problem_.HasOthers(); }
   Estimate Identity() const { return *initial_; }
   double Cost(const Estimate& estimate) const { return estimate.cost; }
   Eigen::VectorXd SquaredResiduals(const Estimate& estimate) const {
@@ -63,7 +64,14 @@ class CeresSubproblem {
                                    : "all candidates were rejected";
       return std::nullopt;
     }
-    summary_.inner.push_back(problem_.Solve(weights, options_.solver));
+    const auto& cheap =
+        summary_.inner.empty() ? options_.plain_fit : options_.loose;
+    return Solve(weights, cheap ? *cheap : options_.solver);
+  }
+
+  std::optional<Estimate> Solve(const WeightsRef& weights,
+                                const ceres::Solver::Options& solver) const {
+    summary_.inner.push_back(problem_.Solve(weights, solver));
     const ceres::Solver::Summary& inner = summary_.inner.back();
     summary_.solver_seconds += inner.total_time_in_seconds;
     if (!inner.IsSolutionUsable()) {
@@ -124,9 +132,18 @@ CeresGncSummary SolveCeresGnc(ceres::Problem* problem,
   const CeresSubproblem subproblem(
       &weighted, std::move(squared_bounds), options, &summary);
   auto gnc = SolveGnc(options.surrogate, subproblem, options.gnc);
+  if (gnc.IsUsable() && options.loose) {
+    gnc.estimate = subproblem.Solve(gnc.weights, options.solver);
+    if (gnc.IsUsable()) {
+      gnc.squared_residuals = subproblem.SquaredResiduals(*gnc.estimate);
+    } else {
+      gnc.termination = GncTermination::kUndetermined;
+    }
+  }
 
   summary.termination = gnc.termination;
-  summary.message = gnc.IsUsable() ? gnc.message : subproblem.error();
+  summary.message =
+      subproblem.error().empty() ? gnc.message : subproblem.error();
   summary.iterations = std::move(gnc.iterations);
   for (const Id id : left_out) blocks[id].weight = 0.0;
   for (Eigen::Index i = 0; i < gnc.weights.size(); ++i) {

@@ -31,6 +31,10 @@
 // Tolerances. With a Ceres function_tolerance below 1e-14, Ceres may treat
 // steps at the level of rounding errors as a failure.
 //
+// Speed. With `plain_fit` and `loose` of the options, the loop solves no more
+// than needed. Blocks of weight zero are left out of the problem that is
+// solved.
+//
 // Losses of blocks. The weight multiplies rho_i, and rho_i is compared with
 // c_i^2, so both steps of the loop decrease the same cost. A ScaledLoss may
 // therefore do the whitening. A loss that never reaches c_i^2 is an error,
@@ -81,8 +85,8 @@ struct CeresGncSummary {
   // `cost` is that of Ceres: half of the weighted sum, known inliers included.
   std::vector<GncIteration> iterations;
 
-  // The plain fit, then one summary for each iteration. The last one may have
-  // failed.
+  // The plain fit, one summary for each iteration and, with
+  // CeresGncOptions::loose, the last solve. The last one may have failed.
   std::vector<ceres::Solver::Summary> inner;
 
   double total_seconds = 0.0;

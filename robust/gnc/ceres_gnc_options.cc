@@ -15,6 +15,8 @@ bool IsPositive(double x) { return x > 0.0 && std::isfinite(x); }
 
 bool CeresGncOptions::IsValid(std::string* error) const {
   if (!gnc.IsValid(error) || !solver.IsValid(error)) return false;
+  if (plain_fit && !plain_fit->IsValid(error)) return false;
+  if (loose && !loose->IsValid(error)) return false;
   std::ostringstream problem;
   if (!(inlier_probability > 0.0 && inlier_probability < 1.0)) {
     problem << "inlier_probability = " << inlier_probability

@@ -30,6 +30,12 @@ struct CeresGncOptions {
   // applies to each separately.
   ceres::Solver::Options solver;
 
+  // Cheaper options, if set: of the plain fit, and of the inner solves that
+  // follow. With `loose`, one more solve with `solver` and the last weights
+  // ends the loop.
+  std::optional<ceres::Solver::Options> plain_fit;
+  std::optional<ceres::Solver::Options> loose;
+
   // Blocks that may be outliers. If not set: all blocks that are in neither
   // list below.
   std::optional<std::vector<ceres::ResidualBlockId>> candidates;

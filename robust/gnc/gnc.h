@@ -17,11 +17,21 @@
 //     Estimate Identity() const;
 //     // Optional: the cost that Solve() minimizes, if not sum_i w_i r2_i.
 //     double Cost(const Estimate& estimate) const;
+//     // Optional: whether the estimate is known even if every measurement is
+//     // rejected. If absent, false.
+//     bool HasOthers() const;
 //   };
 //
 // A Surrogate (robust/gnc/surrogate.h) defines the loss and its schedule. The
 // smallest Subproblem is robust/gnc/quasi_so3.h; robust/gnc/ceres_gnc.h makes
 // one from any ceres::Problem.
+//
+// Start and end. The initial mu of truncated least squares is the inverse of
+// the largest squared residual, so outliers far above the bound (by a factor of
+// 1e6 or more) make every first weight tiny but positive. Such weights are not
+// binary: the loop has not begun to decide. It stops only if some weight
+// exceeds the tolerance or if all of them are exactly zero. A solution with no
+// measurement within its bound is not usable, unless the Subproblem has others.
 
 #ifndef QUATRO_ROBUST_GNC_GNC_H_
 #define QUATRO_ROBUST_GNC_GNC_H_
@@ -47,7 +57,8 @@ struct GncOptions {
   // greedier.
   double mu_step = 1.4;
 
-  // Stop once every weight is this close to 0 or 1.
+  // Stop once every weight is this close to 0 or 1 and at least one is larger
+  // than this, or all are exactly 0.
   double binary_weight_tolerance = 1e-6;
 
   // Stop once |change in weighted cost| <= this * cost.
@@ -100,6 +111,16 @@ double GncCost(const Subproblem& subproblem,
     return subproblem.Cost(estimate);
   } else {
     return weights.dot(r2);
+  }
+}
+
+// Whether the estimate is known even if every measurement is rejected.
+template <typename Subproblem>
+bool GncHasOthers(const Subproblem& subproblem) {
+  if constexpr (requires { subproblem.HasOthers(); }) {
+    return subproblem.HasOthers();
+  } else {
+    return false;
   }
 }
 
@@ -158,8 +179,12 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
     const double gap_to_binary =
         summary.weights.array().min(1.0 - summary.weights.array()).maxCoeff();
     const double cost_change = std::abs(previous_cost - cost);
+    const double max_weight = summary.weights.maxCoeff();
+    const bool has_begun =
+        max_weight > options.binary_weight_tolerance || max_weight == 0.0;
     const char* const stop =
         Surrogate::IsExact(mu) ? "the loss was exact"
+        : !has_begun           ? nullptr
         : gap_to_binary <= options.binary_weight_tolerance
             ? "the weights were binary"
         : cost_change <= options.relative_cost_tolerance * cost
@@ -168,10 +193,18 @@ GncSummary<typename Subproblem::Estimate> SolveGnc(const Subproblem& subproblem,
     if (stop != nullptr) {
       summary.termination = GncTermination::kConverged;
       summary.message = stop;
-      return summary;
+      break;
     }
     previous_cost = cost;
     mu = Surrogate::NextMu(mu, options.mu_step);
+  }
+  if (r2.minCoeff() > 1.0) {
+    summary.message += ", but no measurement is within its bound";
+    if (summary.termination == GncTermination::kConverged &&
+        !GncHasOthers(subproblem)) {
+      summary.termination = GncTermination::kUndetermined;
+      summary.estimate.reset();
+    }
   }
   return summary;
 }

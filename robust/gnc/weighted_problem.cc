@@ -35,6 +35,7 @@ ceres::Problem::Options SharedOptions(ceres::EvaluationCallback* callback) {
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.evaluation_callback = callback;
+  options.enable_fast_removal = true;
   return options;
 }
 
@@ -109,24 +110,42 @@ WeightedProblem::WeightedProblem(
   std::vector<double*> parameters;
   for (const ceres::ResidualBlockId id : ids) {
     if (left_out.contains(id)) continue;
-    ceres::LossFunction* loss =
-        Shared(problem.GetLossFunctionForResidualBlock(id));
     if (const auto column = columns.find(id); column != columns.end()) {
-      losses_.push_back(
-          std::make_unique<WeightedLoss>(&weights_[column->second], loss));
-      loss = losses_.back().get();
-    } else {
-      ++num_others_;
+      Weighted& block = weighted_[static_cast<std::size_t>(column->second)];
+      block.caller = id;
+      block.weighted_loss =
+          std::make_unique<WeightedLoss>(&weights_[column->second], block.loss);
+      SetPresent(block, true);
+      continue;
     }
+    ++num_others_;
     problem.GetParameterBlocksForResidualBlock(id, &parameters);
     ours_[id] = problem_.AddResidualBlock(
-        Shared(problem.GetCostFunctionForResidualBlock(id)), loss, parameters);
+        Shared(problem.GetCostFunctionForResidualBlock(id)),
+        Shared(problem.GetLossFunctionForResidualBlock(id)),
+        parameters);
+  }
+}
+
+void WeightedProblem::SetPresent(const Weighted& block, bool is_present) {
+  const auto our = ours_.find(block.caller);
+  if ((our != ours_.end()) == is_present) return;
+  if (is_present) {
+    ours_[block.caller] = problem_.AddResidualBlock(
+        Shared(block.cost), block.weighted_loss.get(), block.parameters);
+  } else {
+    problem_.RemoveResidualBlock(our->second);
+    ours_.erase(our);
   }
 }
 
 ceres::Solver::Summary WeightedProblem::Solve(
     const WeightsRef& weights, const ceres::Solver::Options& options) {
   weights_ = weights;
+  // A block of weight zero would still fill the factor of the normal equations.
+  for (Eigen::Index i = 0; i < num_weighted(); ++i) {
+    SetPresent(weighted_[static_cast<std::size_t>(i)], weights_[i] > 0.0);
+  }
   ceres::Solver::Options own = WithOwnOrderings(options);
   own.residual_blocks_for_subset_preconditioner.clear();
   for (const auto id : options.residual_blocks_for_subset_preconditioner) {

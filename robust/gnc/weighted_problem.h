@@ -61,11 +61,16 @@ class WeightedProblem {
     const ceres::CostFunction* cost;
     const ceres::LossFunction* loss;  // May be null.
     std::vector<double*> parameters;
+    ceres::ResidualBlockId caller;
+    std::unique_ptr<ceres::LossFunction> weighted_loss;
   };
+
+  // Adds the block to problem_, or removes it, unless that is its state.
+  void SetPresent(const Weighted& block, bool is_present);
 
   Weights weights_;
   std::vector<Weighted> weighted_;
-  std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
+  // The blocks of problem_, by those of the caller.
   std::unordered_map<ceres::ResidualBlockId, ceres::ResidualBlockId> ours_;
   std::vector<double*> parameters_;
   std::vector<double> initial_values_;

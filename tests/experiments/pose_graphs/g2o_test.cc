@@ -81,6 +81,38 @@ TEST_F(G2oTest, FixMayNameSeveralPoses) {
   ExpectRefused(poses + "FIX\n", "line 3: pose '' is not an id");
 }
 
+TEST_F(G2oTest, OrderOfLinesAndDirectionDoNotDecideWhatIsOdometry) {
+  const std::string loop = "EDGE_SE2 0 2 5 0 0 1 0 0 1 0 1\n";
+  const std::string forth =
+      "EDGE_SE2 0 1 1 0 0.5 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n";
+  // The inverses of these edges; that of (1, 0, 0) is (-1, 0, 0).
+  const std::string back =
+      "EDGE_SE2 1 0 -0.8775825618903728 0.479425538604203 -0.5 1 0 0 1 0 1\n"
+      "EDGE_SE2 2 1 -1 0 0 1 0 0 1 0 1\n";
+  for (const std::string poses :
+       {"",
+        "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 7 0 0\nVERTEX_SE2 2 8 0 0\n",
+        "VERTEX_SE2 2 8 0 0\nVERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 7 0 0\n"}) {
+    for (const std::string& edges :
+         {forth + loop, loop + forth, loop + back, back + loop}) {
+      auto graph = ReadText(poses + edges);
+      ASSERT_TRUE(graph.has_value()) << error_;
+      EXPECT_EQ(graph->ids, (std::vector<std::int64_t>{0, 1, 2}));
+      for (const PoseEdge& edge : graph->edges) {
+        EXPECT_EQ(edge.IsOdometry(), edge.from + edge.to != 2);
+      }
+      if (!poses.empty()) {
+        EXPECT_EQ(graph->world_from_pose[1].translation.x(), 7.0);
+        ChainOdometry(&*graph);
+      }
+      // A graph without poses has been chained by the reader.
+      const Rigid3& last = graph->world_from_pose[2];
+      EXPECT_NEAR(last.translation.x(), 1.0 + std::cos(0.5), 1e-12) << edges;
+      EXPECT_NEAR(last.translation.y(), std::sin(0.5), 1e-12) << edges;
+    }
+  }
+}
+
 TEST_F(G2oTest, QuaternionsOfTwoDigitsAreNormalized) {
   const auto graph = ReadText("VERTEX_SE3:QUAT 0 1 2 3 0 0 0.71 0.71\n");
   ASSERT_TRUE(graph.has_value()) << error_;

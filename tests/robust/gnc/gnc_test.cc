@@ -124,6 +124,31 @@ TYPED_TEST(GncTest, KeepsThePlainFitWhereAllAreInliers) {
   EXPECT_EQ(summary.squared_residuals, Eigen::Vector3d(1.0, 0.0, 1.0));
 }
 
+TYPED_TEST(GncTest, FarOutliersDoNotEndItBeforeItBegins) {
+  // Seven values near one, three outliers up to 3.4e4 bounds away. The first
+  // weights of truncated least squares are all below 1e-6.
+  for (const double far : {10.0, 100.0, 500.0, 1e3, 2e3}) {
+    Eigen::VectorXd values(10);
+    values << 1.0, 1.01, 0.99, 1.0, 0.98, 1.02, 1.0, far, 1.3 * far, 1.7 * far;
+    const auto summary =
+        SolveGnc<TypeParam>(MeanSubproblem{values, 0.1}, GncOptions());
+    ASSERT_TRUE(summary.IsUsable()) << far << ": " << summary.message;
+    EXPECT_EQ(summary.termination, GncTermination::kConverged);
+    EXPECT_NEAR(*summary.estimate, 1.0, 0.01) << far;
+  }
+}
+
+TYPED_TEST(GncTest, AnswerWithNothingWithinItsBoundIsNotUsable) {
+  // No two values are within two bounds of each other, nor of any mean.
+  GncOptions options;
+  options.binary_weight_tolerance = 0.5;
+  options.relative_cost_tolerance = 1e9;
+  const auto summary = SolveGnc<TypeParam>(
+      MeanSubproblem{Eigen::Vector4d(-30.0, -10.0, 10.0, 30.0)}, options);
+  EXPECT_EQ(summary.termination, GncTermination::kUndetermined);
+  EXPECT_FALSE(summary.IsUsable()) << *summary.estimate;
+}
+
 TYPED_TEST(GncTest, NoMeasurementsDetermineNothing) {
   const auto summary =
       SolveGnc<TypeParam>(MeanSubproblem{Eigen::VectorXd(0)}, GncOptions());
@@ -134,8 +159,9 @@ TYPED_TEST(GncTest, NoMeasurementsDetermineNothing) {
 
 TYPED_TEST(GncTest, StopsOnceWeightsAreBinaryEnough) {
   GncOptions options = NeverConverging();
-  options.binary_weight_tolerance = 0.5;  // Every weight is this close to one.
-  const auto summary = SolveGnc<TypeParam>(ThreeZerosAndAFour(), options);
+  options.binary_weight_tolerance = 0.5;  // One weight exceeds this.
+  const auto summary = SolveGnc<TypeParam>(
+      MeanSubproblem{Eigen::Vector4d(0.0, 0.0, 0.0, 1.2), 0.5}, options);
   EXPECT_EQ(summary.termination, GncTermination::kConverged);
   EXPECT_EQ(summary.iterations.size(), 1u);
 }
@@ -143,7 +169,9 @@ TYPED_TEST(GncTest, StopsOnceWeightsAreBinaryEnough) {
 TYPED_TEST(GncTest, StopsOnceTheCostSettles) {
   GncOptions options = NeverConverging();
   options.relative_cost_tolerance = 1e9;  // Compares two costs.
-  const auto summary = SolveGnc<TypeParam>(ThreeNearAndOneFar(), options);
+  MeanSubproblem mean = ThreeNearAndOneFar();
+  mean.noise_bound = 5.0;
+  const auto summary = SolveGnc<TypeParam>(mean, options);
   EXPECT_EQ(summary.termination, GncTermination::kConverged);
   EXPECT_EQ(summary.iterations.size(), 2u);
 }
