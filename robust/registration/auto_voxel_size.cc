@@ -55,7 +55,8 @@ bool AreFinite(const Points& points) {
 // Whether distances can be squared.
 bool HasLengths(const Examined& cloud) {
   const double width = cloud.counter.width();
-  return std::isfinite(width) && !(width > 0.0 && width < kMinCloudWidth);
+  return width < 1.0 / kMinCloudWidth &&
+         !(width > 0.0 && width < kMinCloudWidth);
 }
 
 // The size at which the cloud has kWantedVoxels, from `size` on, or zero if it

@@ -151,8 +151,10 @@ class SegmentConsensus::Ballot {
     const Eigen::Vector2d tangent(-normal.y(), normal.x());
     const Eigen::Vector2d foot =
         normal * (pair.target.offset - pair.source.offset);
-    const double begin = pair.target.begin - pair.source.end;
-    const double end = pair.target.end - pair.source.begin;
+    // Cells farther along are not in the grid, whatever the foot.
+    const double reach = 2.0 * half_ * width_;
+    const double begin = std::max(-reach, pair.target.begin - pair.source.end);
+    const double end = std::min(reach, pair.target.end - pair.source.begin);
     for (double along = begin; along < end; along += 2.0 * width_) {
       const double votes = VotesOf(pair, along, width_);
       if (votes > 0.0) {

@@ -27,6 +27,7 @@ TEST_F(PoseGraphProgramTest, GeneratedWorldIsFoundAndWritten) {
   const ProgramRun run = RunProgram("quatro_pose_graph",
                                     {"--poses=150",
                                      "--loops=60",
+                                     "--inlier_probability=0.999999",
                                      "--output=" + PathOf("answer.g2o"),
                                      "--world_output=" + PathOf("world.g2o")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -36,7 +37,9 @@ TEST_F(PoseGraphProgramTest, GeneratedWorldIsFoundAndWritten) {
   // Solving the world from a file gives the same answer.
   const ProgramRun again = RunProgram(
       "quatro_pose_graph",
-      {"--input=" + PathOf("world.g2o"), "--output=" + PathOf("again.g2o")});
+      {"--input=" + PathOf("world.g2o"),
+       "--inlier_probability=0.999999",
+       "--output=" + PathOf("again.g2o")});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   std::string error;
   const auto world = ReadG2o(PathOf("world.g2o"), &error);

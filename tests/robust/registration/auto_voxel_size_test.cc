@@ -134,6 +134,7 @@ TEST_F(AutoVoxelSizeTest, OfNothingIsNone) {
   EXPECT_FALSE(AutoVoxelSize(Points::Ones(3, 100), Points::Ones(3, 100)));
   // The squares of such distances are zero.
   EXPECT_FALSE(AutoVoxelSize(1e-300 * dense_, dense_));
+  EXPECT_FALSE(AutoVoxelSize(dense_, 1e160 * dense_));  // Infinite.
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::max()}) {

@@ -209,5 +209,15 @@ TEST(SegmentConsensus, FarSegmentsAreNotFound) {
       IsEmpty());
 }
 
+// So is the time: a bound far below the length of a wall does not make it vote
+// for billions of cells.
+TEST(SegmentConsensus, ATinyNoiseBoundEnds) {
+  const SegmentProblem problem = MakeProblem(4, 2);
+  const SegmentConsensus consensus(problem.source, problem.target, 1e-9);
+  for (const auto& pose : consensus.Propose(9)) {
+    EXPECT_TRUE(pose.ToMatrix().allFinite());
+  }
+}
+
 }  // namespace
 }  // namespace quatro::segment_consensus_test
