@@ -13,12 +13,12 @@
 
 #include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
+#include "experiments/base/progress_line.h"
 #include "experiments/metrics/registration_metrics.h"
 #include "experiments/programs/experiment_flags.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/methods.h"
 #include "experiments/programs/program.h"
-#include "experiments/base/progress_line.h"
 #include "experiments/protocols/gnc_film.h"
 #include "experiments/protocols/loop_pairs.h"
 #include "experiments/protocols/odometry_runs.h"

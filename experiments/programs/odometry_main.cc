@@ -13,6 +13,7 @@
 
 #include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
+#include "experiments/base/progress_line.h"
 #include "experiments/datasets/kitti_poses.h"
 #include "experiments/datasets/sequence.h"
 #include "experiments/metrics/kitti_metrics.h"
@@ -22,7 +23,6 @@
 #include "experiments/programs/bad_flag.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
-#include "experiments/base/progress_line.h"
 
 DEFINE_string(input,
               "",

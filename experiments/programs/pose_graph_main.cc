@@ -10,13 +10,13 @@
 #include <string>
 
 #include "experiments/base/outputs.h"
+#include "experiments/base/progress_line.h"
 #include "experiments/pose_graphs/g2o.h"
 #include "experiments/pose_graphs/pose_graph_problem.h"
 #include "experiments/pose_graphs/pose_graph_protocol.h"
 #include "experiments/pose_graphs/pose_graph_worlds.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
-#include "experiments/base/progress_line.h"
 #include "experiments/protocols/synthetic_protocols.h"
 
 DEFINE_string(input, "", "g2o file; empty: a generated world");

@@ -19,8 +19,8 @@
 #include "experiments/base/flag_files.h"
 #include "experiments/base/one_line.h"
 #include "experiments/base/outputs.h"
-#include "experiments/programs/bad_flag.h"
 #include "experiments/base/progress_line.h"
+#include "experiments/programs/bad_flag.h"
 
 DECLARE_bool(help);
 DECLARE_bool(helpshort);

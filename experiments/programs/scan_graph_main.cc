@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "experiments/base/outputs.h"
+#include "experiments/base/progress_line.h"
 #include "experiments/pose_graphs/g2o.h"
 #include "experiments/pose_graphs/pose_graph_problem.h"
 #include "experiments/pose_graphs/scan_graph.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
-#include "experiments/base/progress_line.h"
 #include "features/io/cloud_io.h"
 
 DEFINE_string(scans,

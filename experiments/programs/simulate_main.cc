@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "experiments/base/outputs.h"
+#include "experiments/base/progress_line.h"
 #include "experiments/programs/flag_problems.h"
 #include "experiments/programs/program.h"
-#include "experiments/base/progress_line.h"
 #include "experiments/runner/stop_signal.h"
 #include "experiments/simulator/drives.h"
 #include "experiments/simulator/pair_files.h"

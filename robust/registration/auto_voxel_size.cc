@@ -188,10 +188,13 @@ std::optional<double> AutoVoxelSize(const Points& source,
   if (!HasLengths(p) || !HasLengths(q)) return std::nullopt;
   double size = SizeForWantedVoxels(p, q);
   size = std::max(AtLeastTheSpacing(size, p), AtLeastTheSpacing(size, q));
-  size =
-      std::max({size, p.counter.min_voxel_size(), q.counter.min_voxel_size()});
   if (!(size > 0.0)) return std::nullopt;
-  size = SizeForSurfaces(p, q, size);
+  // A cloud with a stray point may be too wide for voxels. The front end then
+  // says so.
+  if (size >= p.counter.min_voxel_size() &&
+      size >= q.counter.min_voxel_size()) {
+    size = SizeForSurfaces(p, q, size);
+  }
   const double unit = std::pow(10.0, std::floor(std::log10(size)) - 1.0);
   return std::round(size / unit) * unit;
 }

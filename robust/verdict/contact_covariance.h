@@ -21,9 +21,9 @@
 //   P = 4.0 S + 2.2 step step^T.                                           (4)
 //
 // The fit to one half of real and simulated pairs gave the factors 2.4 and 2.0.
-// They were enlarged by hand after a look at both halves (docs/verdict.md). Errors that all surfaces share are not in (3), for example
-// those of scans with 16 beams, whose rings lock on rings; there, P is too
-// small.
+// They were enlarged by hand after a look at both halves (docs/verdict.md).
+// Errors that all surfaces share are not in (3), for example those of scans
+// with 16 beams, whose rings lock on rings; there, P is too small.
 
 #ifndef QUATRO_ROBUST_VERDICT_CONTACT_COVARIANCE_H_
 #define QUATRO_ROBUST_VERDICT_CONTACT_COVARIANCE_H_

@@ -102,15 +102,14 @@ class VgicpTerms final : public AlignmentTerms {
       return false;
     }
     term->target = voxel->mean;
-    // B = I - k n n^T changes I + mean C by a matrix of rank one, so the inverse
-    // follows by the formula of Sherman and Morrison.
+    // B = I - k n n^T changes I + mean C by a matrix of rank one, so the
+    // inverse follows by the formula of Sherman and Morrison.
     const double k = 1.0 - epsilon_;
     const Eigen::Vector3d normal = pose.rotation * source_.normals.col(i);
     const Eigen::Vector3d turned = voxel->inverse * normal;
     const double scale = k / (1.0 - k * normal.dot(turned));
-    term->information =
-        voxel->count * voxel->inverse +
-        (voxel->count * scale * turned) * turned.transpose();
+    term->information = voxel->count * voxel->inverse +
+                        (voxel->count * scale * turned) * turned.transpose();
     return true;
   }
 

@@ -89,10 +89,11 @@ def check_long(block, scratch):
         if '--' in words:
             text += describe(scratch / 'build/bin/quatro_register')
         for flag in (word for word in words if re.match(r'--\w', word)):
-            name = re.match(r'--(?:no)?(\w+)', flag).group(1)
+            name = re.match(r'--(\w+)', flag).group(1)
             if name.startswith('benchmark_'):  # Google Benchmark's, not in our help texts.
                 continue
-            if not re.search(rf'-{name}\b|"--{name}"|\b{name}\b', text):
+            names = rf'(?:{name}|{re.sub("^no", "", name)})'
+            if not re.search(rf'-{names}\b|"--{names}"|\b{names}\b', text):
                 return f'{words[0]} has no flag {flag}'
     return ''
 

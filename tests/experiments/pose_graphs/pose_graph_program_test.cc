@@ -35,11 +35,10 @@ TEST_F(PoseGraphProgramTest, GeneratedWorldIsFoundAndWritten) {
               HasSubstr("30 outlier loops, 0 of them accepted; 0 inlier"));
 
   // Solving the world from a file gives the same answer.
-  const ProgramRun again = RunProgram(
-      "quatro_pose_graph",
-      {"--input=" + PathOf("world.g2o"),
-       "--inlier_probability=0.999999",
-       "--output=" + PathOf("again.g2o")});
+  const ProgramRun again = RunProgram("quatro_pose_graph",
+                                      {"--input=" + PathOf("world.g2o"),
+                                       "--inlier_probability=0.999999",
+                                       "--output=" + PathOf("again.g2o")});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   std::string error;
   const auto world = ReadG2o(PathOf("world.g2o"), &error);

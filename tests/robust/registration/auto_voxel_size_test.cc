@@ -127,6 +127,13 @@ TEST_F(AutoVoxelSizeTest, AStrayPointChangesLittle) {
   }
 }
 
+// The size of the rest, with which the front end refuses the cloud.
+TEST_F(AutoVoxelSizeTest, APointTooFarForVoxelsChangesNothing) {
+  Points stray = sparse_;
+  stray.col(0) << 1e12, 0.0, 0.0;
+  EXPECT_LT(SizeFor(stray, stray), 2.0 * SizeFor(sparse_, sparse_));
+}
+
 TEST_F(AutoVoxelSizeTest, OfNothingIsNone) {
   EXPECT_FALSE(AutoVoxelSize(Points(3, 0), dense_));
   EXPECT_FALSE(AutoVoxelSize(dense_, Points(3, 0)));

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "robust/registration/registration.h"
@@ -201,7 +202,10 @@ TEST(RegisterWithRefinement, PoseIsRefinedAndTheOneBeforeIsKept) {
     EXPECT_LE(
         (one.target_from_source()->translation - truth.translation).norm(),
         0.1);
-    EXPECT_EQ(one.stage_times[one.stage_times.size() - 3].stage, "refinement");
+    EXPECT_TRUE(std::any_of(
+        one.stage_times.begin(),
+        one.stage_times.end(),
+        [](const StageTime& time) { return time.stage == "refinement"; }));
 
     options.num_threads = 2;
     const RegistrationSummary two = Register(source, target, options);
