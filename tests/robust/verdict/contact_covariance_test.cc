@@ -86,7 +86,7 @@ class ContactCovarianceTest : public ::testing::Test {
  protected:
   const Hall source_ = MakeHall(true, 0.02, 1);
   const Hall target_ = MakeHall(true, 0.02, 2);
-  const Rigid3 identity_;
+  const Rigid3 identity_ = Rigid3();
 };
 
 TEST_F(ContactCovarianceTest, IsPositiveAndSmall) {
