@@ -137,7 +137,8 @@ Registration RegisterClouds(const py::object& source,
                             const py::object& preset_name,
                             const py::object& method_name,
                             const py::dict& given) {
-  const Method& method = MethodOf(NameArgument(method_name, "method"));
+  const std::string name = NameArgument(method_name, "method");
+  const Method& method = MethodOf(name);
   const std::string preset = NameArgument(preset_name, "preset");
   const PointsArgument source_points(source, "source");
   const PointsArgument target_points(target, "target");
@@ -187,7 +188,8 @@ Solution SolveMatches(const py::object& source_points,
                       const py::object& method_name,
                       const py::object& preset_name,
                       const py::dict& given) {
-  const Method& method = MethodOf(NameArgument(method_name, "method"));
+  const std::string name = NameArgument(method_name, "method");
+  const Method& method = MethodOf(name);
   const std::string preset = NameArgument(preset_name, "preset");
   const PointsArgument source_argument(source_points, "source_points");
   const PointsArgument target_argument(target_points, "target_points");
