@@ -23,7 +23,8 @@ constexpr double kEmptyShare = 0.25;    // Of the mean count.
 constexpr double kIndoorRange = 8.0;    // [m]
 constexpr double kFloorInVoxels = 0.1;  // v of (1).
 
-// Printed by experiments/scripts/calibrate_radius.py.
+// Fitted as in experiments/scripts/calibrate_radius.py (docs/verdict.md says on
+// what); far, indoor and narrow have the radius factors of street.
 struct RegimeFactors {
   Regime regime;
   const char* name;

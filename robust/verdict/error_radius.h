@@ -48,7 +48,7 @@ double CovarianceFactor(Regime regime);
 
 // Errors that are not exceeded with a confidence of 95 %, both at once.
 struct ErrorRadius {
-  double translation = 0.0;  // Of the source's origin [m].
+  double translation = 0.0;  // How far the source's origin may be off [m].
   double rotation = 0.0;     // [rad]
   Regime regime = Regime::kStreet;
 
